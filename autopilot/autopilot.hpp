@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autopilot/modules.hpp"
+#include "autopilot/request.hpp"
+#include "autopilot/signals.hpp"
+
+namespace ironbird::autopilot {
+
+/// Which module flies in each slot, and how often it works.
+struct AutopilotConfig {
+  struct Slot {
+    std::string kind;
+    Time period{0};
+  };
+  Slot estimator{"ekf", Time{0}};
+  Slot path_planner{"waypoint_planner", Time{0}};
+  Slot path_manager{"smoothstep_manager", Time{0}};
+  Slot trajectory_follower{"flat_pid_follower", Time{0}};
+  Slot controller{"cascaded_controller", Time{0}};
+};
+
+/// What became of a request; logged by the bench.
+struct RequestOutcome {
+  bool accepted = false;
+  std::string reason;
+};
+
+/// Flies one multirotor. A pure stepping object: no clock, no threads, no I/O.
+///
+/// The complete input of a flight is the configuration, the frames and the requests. ROScopter paper,
+/// architecture figure.
+class Autopilot {
+ public:
+  /// @throws std::invalid_argument when a kind is unknown; the message names the slot, the kind and the kinds
+  /// there are.
+  Autopilot(const AutopilotConfig& config, const Modules& modules);
+  ~Autopilot();
+
+  /// One tick: everything the FCU reported since the last tick in, one command out.
+  /// @param frame  in stamp order; an older frame is refused and counted by the estimator
+  const FcuCommand& step(const SensorFrame& frame);
+
+  /// Applies an operator's wish between two ticks. Builds new modules here, outside the tick.
+  RequestOutcome request(const Request& request);
+
+  /// Everything the last step computed. Valid until the next step.
+  const Signals& signals() const { return signals_; }
+
+  /// All parameters of the modules in force, under `estimator.…`, `path_manager.…` and so on.
+  ParameterTable& parameters() { return parameters_; }
+
+  const Estimator& estimator() const { return *estimator_; }
+  const PathPlanner& path_planner() const { return *path_planner_; }
+  const PathManager& path_manager() const { return *path_manager_; }
+  const TrajectoryFollower& trajectory_follower() const { return *trajectory_follower_; }
+  const Controller& controller() const { return *controller_; }
+
+ private:
+  RequestOutcome swap(const SwapModule& wish);
+
+  Modules modules_;
+  AutopilotConfig config_;
+  std::unique_ptr<Estimator> estimator_;
+  std::unique_ptr<PathPlanner> path_planner_;
+  std::unique_ptr<PathManager> path_manager_;
+  std::unique_ptr<TrajectoryFollower> trajectory_follower_;
+  std::unique_ptr<Controller> controller_;
+  ParameterTable parameters_;
+  std::optional<ControlSetpoint> override_;
+  std::uint32_t route_revision_ = 0;
+  Signals signals_;
+};
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ironbird::autopilot {
+
+class Module;
+
+/// A value that a parameter can take.
+using ParameterValue = std::variant<bool, int, double>;
+
+/// One parameter: where it lives and what it may be.
+struct ParameterSlot {
+  std::string path;
+  std::variant<bool*, int*, double*> value;
+  std::string unit;
+  std::string description;
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  Module* owner = nullptr;
+};
+
+/// What became of an attempt to set a parameter.
+enum class SetOutcome : std::uint8_t { kAccepted, kUnknown, kWrongType, kOutOfBounds, kNotFinite };
+
+constexpr std::array<std::pair<SetOutcome, std::string_view>, 5> enumerators(SetOutcome) {
+  return {{{SetOutcome::kAccepted, "accepted"},
+           {SetOutcome::kUnknown, "unknown"},
+           {SetOutcome::kWrongType, "wrong type"},
+           {SetOutcome::kOutOfBounds, "out of bounds"},
+           {SetOutcome::kNotFinite, "not finite"}}};
+}
+
+/// Every parameter of the autopilot under its path, for example `estimator.gnss.sigma_position`.
+class ParameterTable {
+ public:
+  /// Adds the described struct `params` under `prefix`. Leaves are bool, int and double; structs nest.
+  template <class Params>
+  void add(const std::string& prefix, Params& params, Module* owner) {
+    Params::describe(params, Collector{*this, prefix, owner});
+  }
+
+  /// Forgets every parameter below `prefix`.
+  void remove(std::string_view prefix);
+
+  /// Sets one parameter and tells its module. Refused whole, with the reason, or done whole.
+  SetOutcome set(std::string_view path, const ParameterValue& value);
+
+  /// The slot at `path`, or null.
+  const ParameterSlot* find(std::string_view path) const;
+
+  /// All slots, in order of registration.
+  const std::vector<ParameterSlot>& slots() const { return slots_; }
+
+ private:
+  struct Collector {
+    ParameterTable& table;
+    std::string prefix;
+    Module* owner;
+
+    template <class Value>
+    void operator()(const char* name, Value& value, const char* unit, const char* description,
+                    double lower = -std::numeric_limits<double>::infinity(),
+                    double upper = std::numeric_limits<double>::infinity()) const {
+      const std::string path = prefix + "." + name;
+      if constexpr (std::is_same_v<Value, bool> || std::is_same_v<Value, int> ||
+                    std::is_same_v<Value, double>) {
+        table.slots_.push_back({path, &value, unit, description, lower, upper, owner});
+      } else {
+        Value::describe(value, Collector{table, path, owner});
+      }
+    }
+  };
+
+  std::vector<ParameterSlot> slots_;
+};
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "autopilot/module/parameter_table.hpp"
+#include "autopilot/types/control_setpoint.hpp"
+#include "autopilot/types/mission.hpp"
+
+namespace ironbird::autopilot {
+
+// What an operator may ask between two ticks.
+
+/// Adds a waypoint before index `at`, or at the end.
+struct AddWaypoint {
+  Waypoint waypoint;
+  std::optional<std::uint32_t> at;
+};
+/// Removes the waypoint with this index.
+struct RemoveWaypoint {
+  std::uint32_t index = 0;
+};
+/// Replaces the whole route.
+struct SetRoute {
+  std::vector<Waypoint> waypoints;
+  bool cyclic = false;
+};
+/// Empties the route: the vehicle holds where it is.
+struct ClearRoute {};
+/// Holds here for `duration` seconds, or until released, then flies on.
+struct HoldHere {
+  std::optional<double> duration;
+};
+/// Ends a hold.
+struct Release {};
+/// Flies back to where the vehicle took off and lands there.
+struct ReturnToLaunch {};
+
+using RouteRequest =
+    std::variant<AddWaypoint, RemoveWaypoint, SetRoute, ClearRoute, HoldHere, Release, ReturnToLaunch>;
+
+/// Takes off once armed.
+struct TakeOff {};
+/// Descends here and disarms on the ground.
+struct Land {};
+/// Sets one parameter.
+struct SetParameter {
+  std::string path;
+  ParameterValue value;
+};
+/// Replaces the module in `slot` (estimator, path_planner, path_manager, trajectory_follower, controller) by
+/// one of `kind`.
+struct SwapModule {
+  std::string slot;
+  std::string kind;
+};
+/// Flies this setpoint instead of the follower's, at any of the twelve entry points; empty: the follower
+/// flies again.
+struct OverrideSetpoint {
+  std::optional<ControlSetpoint> setpoint;
+};
+
+using Request = std::variant<RouteRequest, TakeOff, Land, SetParameter, SwapModule, OverrideSetpoint>;
+
+}  // namespace ironbird::autopilot

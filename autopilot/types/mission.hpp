@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "autopilot/types/linear_algebra.hpp"
+
+namespace ironbird::autopilot {
+
+/// What to do at a waypoint.
+enum class WaypointKind : std::uint8_t {
+  kGoto,  ///< fly there and on
+  kHold,  ///< fly there and stay for `hold_time`, or until released
+  kLand   ///< fly there, descend and disarm on the ground
+};
+
+constexpr std::array<std::pair<WaypointKind, std::string_view>, 3> enumerators(WaypointKind) {
+  return {{{WaypointKind::kGoto, "goto"}, {WaypointKind::kHold, "hold"}, {WaypointKind::kLand, "land"}}};
+}
+
+/// A place on the earth, double precision throughout.
+struct GeodeticPosition {
+  double latitude = 0.0;
+  double longitude = 0.0;
+  double altitude = 0.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("latitude", self.latitude, "rad", "geodetic latitude, north positive", -1.5707963267948966,
+          1.5707963267948966);
+    visit("longitude", self.longitude, "rad", "longitude, east positive", -3.1415926535897931,
+          3.1415926535897931);
+    visit("altitude", self.altitude, "m", "height above mean sea level", -500.0, 9000.0);
+  }
+};
+
+/// A place to fly to and what to do there. Given either in N or on the earth; the planner fills `p_N` from
+/// `geodetic`.
+struct Waypoint {
+  WaypointKind kind = WaypointKind::kGoto;
+  Vector3 p_N = Vector3::Zero();
+  std::optional<GeodeticPosition> geodetic;
+  double heading = 0.0;
+  double speed = 0.0;
+  double hold_time = 0.0;
+  bool hold_indefinitely = false;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("kind", self.kind, "1", "goto, hold or land");
+    visit("p_N", self.p_N, "m", "position from the local origin");
+    visit("geodetic", self.geodetic, "", "position on the earth; wins over p_N");
+    visit("heading", self.heading, "rad", "heading at the waypoint");
+    visit("speed", self.speed, "m/s", "greatest speed on the leg to it; 0: the path manager's limit", 0.0,
+          50.0);
+    visit("hold_time", self.hold_time, "s", "how long a hold lasts", 0.0, 86400.0);
+    visit("hold_indefinitely", self.hold_indefinitely, "1", "a hold lasts until released");
+  }
+};
+
+/// The waypoints in force, in N. A new revision means that something other than `released` changed.
+struct Route {
+  std::uint32_t revision = 0;
+  std::uint32_t released = 0;
+  bool cyclic = false;
+  std::vector<Waypoint> waypoints;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("revision", self.revision, "1", "raised by every change");
+    visit("released", self.released, "1", "how often a hold was released by request");
+    visit("cyclic", self.cyclic, "1", "after the last waypoint comes the first");
+    visit("waypoints", self.waypoints, "", "in order of flight");
+  }
+};
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+#include "autopilot/types/linear_algebra.hpp"
+#include "autopilot/types/time.hpp"
+
+namespace ironbird::autopilot {
+
+/// How far an estimate may be trusted.
+enum class Health : std::uint8_t {
+  kUninitialised,  ///< no estimate yet: do not fly on it
+  kGood,
+  kDegraded,  ///< coasting without one of its sensors
+  kLost       ///< diverged or not finite; the values are the last good ones
+};
+
+/// Every value of Health with its name in files and logs.
+constexpr std::array<std::pair<Health, std::string_view>, 4> enumerators(Health) {
+  return {{{Health::kUninitialised, "uninitialised"},
+           {Health::kGood, "good"},
+           {Health::kDegraded, "degraded"},
+           {Health::kLost, "lost"}}};
+}
+
+/// Where latitude, longitude and altitude of the local frame N begin.
+struct LocalOrigin {
+  bool known = false;
+  double latitude = 0.0;
+  double longitude = 0.0;
+  double altitude = 0.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("known", self.known, "1", "the origin has been set");
+    visit("latitude", self.latitude, "rad", "geodetic latitude, north positive");
+    visit("longitude", self.longitude, "rad", "longitude, east positive");
+    visit("altitude", self.altitude, "m", "height above mean sea level");
+  }
+};
+
+/// Where the vehicle is, how it moves, and how sure we are.
+struct StateEstimate {
+  Time stamp{};
+  Vector3 p_NB_N = Vector3::Zero();
+  Vector3 v_NB_B = Vector3::Zero();
+  Quaternion q_NB = Quaternion::Identity();
+  double roll = 0.0;
+  double pitch = 0.0;
+  double heading = 0.0;
+  Vector3 w_NB_B = Vector3::Zero();
+  Vector3 gyro_bias_B = Vector3::Zero();
+  Vector3 accelerometer_bias_B = Vector3::Zero();
+  Vector3 sigma_p_N = Vector3::Zero();
+  Vector3 sigma_v_B = Vector3::Zero();
+  Vector3 sigma_attitude = Vector3::Zero();
+  LocalOrigin origin;
+  Health health = Health::kUninitialised;
+
+  /// Velocity over ground in N, m/s.
+  Vector3 v_NB_N() const { return q_NB * v_NB_B; }
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("stamp", self.stamp, "ns", "stamp of the IMU sample that the estimate belongs to");
+    visit("p_NB_N", self.p_NB_N, "m", "position of B from the local origin");
+    visit("v_NB_B", self.v_NB_B, "m/s", "velocity over ground in body axes");
+    visit("q_NB", self.q_NB, "1", "attitude of B in N");
+    visit("roll", self.roll, "rad", "ZYX Euler angle");
+    visit("pitch", self.pitch, "rad", "ZYX Euler angle");
+    visit("heading", self.heading, "rad", "ZYX Euler angle, from true north, (-pi, pi]");
+    visit("w_NB_B", self.w_NB_B, "rad/s", "angular velocity, bias removed, low-passed");
+    visit("gyro_bias_B", self.gyro_bias_B, "rad/s", "bias of the gyro");
+    visit("accelerometer_bias_B", self.accelerometer_bias_B, "m/s^2",
+          "bias of the accelerometer; 0 when not estimated");
+    visit("sigma_p_N", self.sigma_p_N, "m", "1 sigma of p_NB_N");
+    visit("sigma_v_B", self.sigma_v_B, "m/s", "1 sigma of v_NB_B");
+    visit("sigma_attitude", self.sigma_attitude, "rad", "1 sigma of roll, pitch, heading");
+    visit("origin", self.origin, "", "where N begins");
+    visit("health", self.health, "1", "how far the estimate may be trusted");
+  }
+};
+
+}  // namespace ironbird::autopilot
