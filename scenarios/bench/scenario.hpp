@@ -77,7 +77,15 @@ constexpr std::array<std::pair<PilotAction, std::string_view>, 6> enumerators(Pi
 }
 
 /// What the operator asks of the autopilot at an event.
-enum class OperatorWish : std::uint8_t { kTakeOff, kLand, kHold, kRelease, kReturnToLaunch, kClearRoute, kFollowerFlies };
+enum class OperatorWish : std::uint8_t {
+  kTakeOff,
+  kLand,
+  kHold,
+  kRelease,
+  kReturnToLaunch,
+  kClearRoute,
+  kFollowerFlies
+};
 
 constexpr std::array<std::pair<OperatorWish, std::string_view>, 7> enumerators(OperatorWish) {
   return {{{OperatorWish::kTakeOff, "take_off"},
@@ -121,7 +129,8 @@ struct SetpointConfig {
   }
 };
 
-/// Something that happens during a run, at a time or some time after another event. Exactly one thing happens.
+/// Something that happens during a run, at a time or some time after another event. Exactly one thing
+/// happens.
 struct EventConfig {
   std::string name;
   double at = 0.0;
@@ -144,8 +153,10 @@ struct EventConfig {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("name", self.name, "", "for the log and the checks; by default what happens");
-    visit("at", self.at, "s", "when: since the start of the run, or since the event in `after`", 0.0, 86400.0);
-    visit("after", self.after, "", "the event that `at` counts from, for example \"phase offboard\" or \"reached 1\"");
+    visit("at", self.at, "s", "when: since the start of the run, or since the event in `after`", 0.0,
+          86400.0);
+    visit("after", self.after, "",
+          "the event that `at` counts from, for example \"phase offboard\" or \"reached 1\"");
     visit("fault", self.fault, "1", "a fault begins");
     visit("lasts", self.lasts, "s", "how long the fault lasts; 0: to the end", 0.0, 86400.0);
     visit("index", self.index, "1", "of the rotor or waypoint that is meant", 0.0, 1000.0);
@@ -153,8 +164,10 @@ struct EventConfig {
     visit("vector", self.vector, "", "of the fault, in its unit");
     visit("pilot", self.pilot, "1", "the pilot's hands");
     visit("request", self.request, "1", "a request of the operator");
-    visit("add_waypoint", self.add_waypoint, "", "a waypoint is added at the end, or before `index` when that is given");
-    visit("remove_waypoint", self.remove_waypoint, "1", "the waypoint with this index is removed", 0.0, 1000.0);
+    visit("add_waypoint", self.add_waypoint, "",
+          "a waypoint is added at the end, or before `index` when that is given");
+    visit("remove_waypoint", self.remove_waypoint, "1", "the waypoint with this index is removed", 0.0,
+          1000.0);
     visit("setpoint", self.setpoint, "", "the controller flies this setpoint instead of the follower's");
     visit("swap", self.swap, "", "the module in this slot is replaced by one of `kind`");
     visit("kind", self.kind, "", "kind of the new module");
@@ -189,7 +202,8 @@ struct SnapshotConfig {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("name", self.name, "", "of the file");
-    visit("at", self.at, "s", "when: since the start of the run, or since the event in `after`", 0.0, 86400.0);
+    visit("at", self.at, "s", "when: since the start of the run, or since the event in `after`", 0.0,
+          86400.0);
     visit("after", self.after, "", "the event that `at` counts from");
     visit("camera", self.camera, "", "chase, top, or the name of a camera of the scenario");
   }
@@ -216,7 +230,8 @@ struct RecordConfig {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("state_period", self.state_period, "s", "of truth and estimate", 0.0025, 10.0);
-    visit("signal_period", self.signal_period, "s", "of trajectory, setpoint, command and telemetry", 0.0025, 10.0);
+    visit("signal_period", self.signal_period, "s", "of trajectory, setpoint, command and telemetry", 0.0025,
+          10.0);
     visit("frames", self.frames, "1", "every sensor frame and every command, which an exact replay needs");
   }
 };
