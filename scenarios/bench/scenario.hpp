@@ -156,7 +156,7 @@ struct EventConfig {
     visit("at", self.at, "s", "when: since the start of the run, or since the event in `after`", 0.0,
           86400.0);
     visit("after", self.after, "",
-          "the event that `at` counts from, for example \"phase offboard\" or \"reached 1\"");
+          "the event that `at` counts from, for example \"offboard\" or \"waypoint_1\"");
     visit("fault", self.fault, "1", "a fault begins");
     visit("lasts", self.lasts, "s", "how long the fault lasts; 0: to the end", 0.0, 86400.0);
     visit("index", self.index, "1", "of the rotor or waypoint that is meant", 0.0, 1000.0);
