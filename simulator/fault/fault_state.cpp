@@ -1,9 +1,46 @@
 #include "simulator/fault/fault_state.hpp"
 
 #include <cassert>
+#include <cmath>
 #include <cstddef>
+#include <sstream>
+#include <stdexcept>
+#include <string>
 
 namespace ironbird::simulator {
+
+namespace {
+
+const char* name_of(FaultKind kind) {
+  for (const auto& [value, name] : enumerators(FaultKind{})) {
+    if (value == kind) return name.data();
+  }
+  return "unknown";
+}
+
+[[noreturn]] void refuse(FaultKind kind, const char* member, double value, const std::string& bound) {
+  std::ostringstream message;
+  message << "fault " << name_of(kind) << ": " << member << " = " << value << ", must be " << bound;
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace
+
+void check(const Fault& fault, int rotor_count) {
+  const FaultKind kind = fault.kind;
+  const double magnitude = fault.magnitude;
+  if (!std::isfinite(magnitude)) refuse(kind, "magnitude", magnitude, "a finite number");
+  for (const double component : fault.vector) {
+    if (!std::isfinite(component)) refuse(kind, "vector", component, "a finite number");
+  }
+  const bool is_rotor = kind == FaultKind::kRotorEfficiency || kind == FaultKind::kRotorLoss;
+  if (is_rotor && (fault.index < 0 || fault.index >= rotor_count)) {
+    refuse(kind, "index", fault.index, "0.." + std::to_string(rotor_count - 1));
+  }
+  const bool is_share = kind == FaultKind::kRotorEfficiency || kind == FaultKind::kBatteryCharge;
+  if (is_share && !(magnitude >= 0.0 && magnitude <= 1.0)) refuse(kind, "magnitude", magnitude, "0..1");
+  if (kind == FaultKind::kPayload && magnitude < 0.0) refuse(kind, "magnitude", magnitude, ">= 0 kg");
+}
 
 void add(const Fault& fault, FaultState& state) {
   const std::size_t rotor = static_cast<std::size_t>(fault.index);

@@ -54,6 +54,10 @@ struct FaultState {
   }
 };
 
+/// @throws std::invalid_argument when a vehicle of `rotor_count` rotors cannot have this fault: naming the
+/// kind, the value and the bound
+void check(const Fault& fault, int rotor_count);
+
 /// Adds one fault to a state. @param fault  `index` of a rotor fault in 0..kMaxRotors-1
 void add(const Fault& fault, FaultState& state);
 
