@@ -33,9 +33,9 @@ TurbulenceScale low_altitude_scale(double height, double wind_at_20_feet);
 /// Continuous turbulence with Dryden spectra. Source: MIL-F-8785C, sections 3.7.2.2 and 3.7.3.
 ///
 /// White noise through the Dryden filters, whose discrete form is exact for any step as long as height and
-/// airspeed hold. The along-wind axis is that of the mean wind, north without wind; it does not turn with the
-/// vehicle. A vehicle at rest in still air is still passed by the pattern at kSlowestPassage. No angular
-/// turbulence.
+/// airspeed hold, and which start in their stationary state. The along-wind axis is that of the mean wind,
+/// north without wind; it does not turn with the vehicle. A vehicle at rest in still air is still passed by
+/// the pattern at kSlowestPassage. No angular turbulence.
 class Turbulence {
  public:
   static constexpr double kSlowestPassage = 1.0;  ///< m/s
@@ -56,6 +56,8 @@ class Turbulence {
   struct SecondOrder {
     double u = 0.0;
     double v = 0.0;
+    void start(Stream& stream);
+    /// @param h  step in units of T
     void advance(double h, Stream& stream);
     double output() const;
   };

@@ -65,17 +65,23 @@ class Vehicle : public ForceModel {
   const VehicleParams& params() const { return params_; }
 
  private:
-  struct Air {
-    Vector3 V_a_B;  // velocity of the vehicle against the air
-    double density = 0.0;
-    double inflow = 0.0;
+  /// What the air does at one instant.
+  struct Flow {
+    Vector3 V_a_B;         // of the vehicle against the air, m/s
+    double density = 0.0;  // kg/m^3
+    double inflow = 0.0;   // of the rotors, rad/s
+    double gain = 1.0;     // of the thrust, by the ground
   };
 
-  Air air_at(const RigidBodyState& state, const Matrix3& R_NB) const;
-  double rotor_wrench(const RotorSpeeds& rotors, const Air& air, const Vector3& w_NB_B, Forces& forces);
-  void instantaneous_wrench(const Air& air, Forces& forces, double& total_thrust) const;
+  Flow flow_at(const RigidBodyState& state) const;
+  double thrust_gain(double height) const;
+  void remember_density(double height);
+  void add_rotors(const RotorSpeeds& rotors, const Flow& flow, const Vector3& w_NB_B, Forces& forces) const;
+  void add_rotors_without_inertia(const Flow& flow, Forces& forces) const;
+  void add_drag(const Flow& flow, Wrench& wrench) const;
+  double polynomial_force(double height) const;
   double terminal_voltage(const RotorSpeeds& rotors) const;
-  double ground_force(double height, double total_thrust) const;
+  double drawn_current(double voltage, const RotorSpeeds& rotors) const;
 
   VehicleParams params_;
   const Environment* environment_;
@@ -83,13 +89,19 @@ class Vehicle : public ForceModel {
   Battery battery_;
   MassProperties mass_properties_;
   int rotor_count_ = 0;
-  std::array<double, kMaxRotors> x_{}, y_{}, direction_{};
-  std::array<double, kMaxRotors> command_{};
+  bool has_inertia_ = false;
+  double inverse_rotor_inertia_ = 0.0;
+  double hub_z_ = 0.0;  // mean over the rotors, m
+  std::array<double, kMaxRotors> x_{};
+  std::array<double, kMaxRotors> y_{};
+  std::array<double, kMaxRotors> direction_{};
+  std::array<double, kMaxRotors> command_{};  // as told
+  std::array<double, kMaxRotors> drive_{};    // command_, 0 when the motor has no power
   std::array<double, kMaxRotors> efficiency_{};
-  double payload_ = 0.0;
+  double drag_area_ = 0.0;  // CD A/2
   double voltage_ = 0.0;
   double current_ = 0.0;
-  double density_ = 1.225;
+  double density_ = 0.0;
   double density_gradient_ = 0.0;
   double density_height_ = 0.0;
 };
