@@ -5,20 +5,18 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "autopilot/autopilot.hpp"
 #include "hil_bridge/executive/lockstep.hpp"
 #include "hil_bridge/virtual_fcu/virtual_fcu.hpp"
+#include "scenarios/bench/ground_watch.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/bench/script.hpp"
 #include "scenarios/record/recorder.hpp"
-#include "scenarios/requirements/check.hpp"
-#include "scenarios/requirements/metrics.hpp"
+#include "scenarios/requirements/judge.hpp"
 #include "scenarios/requirements/signal_table.hpp"
-#include "scenarios/requirements/timeline.hpp"
 #include "scenarios/requirements/verdict.hpp"
 #include "simulator/world.hpp"
 
@@ -33,54 +31,60 @@ struct Progress {
 
 /// What a run does beside flying.
 struct BenchOptions {
-  std::filesystem::path log_file;               ///< empty: no log
-  std::function<bool(const Progress&)> progress;  ///< called about every simulated second; false: stop the run
+  std::filesystem::path log_file;                   ///< empty: no log
+  std::function<bool(const Progress&)> on_progress;  ///< called every simulated second; false: stop the run
 };
 
-/// Wires one run and flies it: the one place where autopilot, FCU, world, recorder and judges meet.
+/// Wires one run and flies it: the one place where autopilot, FCU, world, recorder and judge meet.
 class Bench {
  public:
-  /// @throws std::invalid_argument or ConfigError when the scenario cannot be wired
+  using Time = std::chrono::nanoseconds;
+
+  /// @param loaded  outlives the bench
+  /// @throws std::invalid_argument when the scenario cannot be wired, std::runtime_error when the log cannot be made
   Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, BenchOptions options);
   ~Bench();
 
   /// Flies to the end and judges. Called once.
   Verdict fly();
 
-  /// One tick; `fly` calls it. @return the time reached
-  std::chrono::nanoseconds tick();
+  /// One tick, all of it. `fly` calls it. @return the time reached
+  Time tick();
 
-  /// The run was stopped by the progress callback.
+  /// The progress callback stopped the run.
   bool interrupted() const { return interrupted_; }
 
   const simulator::World& world() const { return *world_; }
   const autopilot::Autopilot& autopilot() const { return *autopilot_; }
-  const Timeline& timeline() const { return timeline_; }
+  const Judge& judge() const { return *judge_; }
 
  private:
-  using Time = std::chrono::nanoseconds;
-
-  /// What the script's items stand for.
+  /// What an item of the script stands for.
   struct Deed {
-    enum class Kind { kEvent, kFaultEnd, kArm, kTakeOff, kSnapshot, kEnd };
-    Kind kind;
-    std::size_t index = 0;  // into the scenario's events or snapshots, or a fault's number
+    enum class Kind { kEvent, kFaultEnd, kArm, kTakeOff, kDisarm, kSnapshot, kEnd };
+    Kind kind = Kind::kEvent;
+    std::size_t index = 0;  // into the scenario's events or snapshots, or the number of a fault
   };
 
+  void wire_autopilot(const autopilot::Modules& modules);
   void wire_record();
   void wire_script();
-  void add_deed(const std::string& after, double delay, Deed deed);
+  void schedule(const std::string& after, double delay, Deed deed);
   void do_what_is_due(Time now);
-  void do_deed(const Deed& deed, Time now);
-  void do_event(const EventConfig& event, Time now);
-  void do_pilot(PilotAction action);
-  void do_request(const autopilot::Request& request, const std::string& what, Time now);
+  void perform(const Deed& deed, Time now);
+  void perform(const EventConfig& event, Time now);
+  void begin_fault(const EventConfig& event, Time now);
+  void perform(PilotAction action);
+  void perform(OperatorWish wish, const EventConfig& event, Time now);
+  void swap_module(const EventConfig& event, Time now);
+  void ask(const autopilot::Request& request, const std::string& what, Time now);
   void watch(Time now);
-  void tell(Time now, std::string kind, std::string text);
-  void publish_events();
-  Verdict judge();
+  void publish_events(Time now);
+  void record_route(Time now);
+  Verdict finish(double wall_seconds);
 
   const LoadedScenario& loaded_;
+  const Scenario& scenario_;
   BenchOptions options_;
   std::unique_ptr<simulator::World> world_;
   std::unique_ptr<hil_bridge::virtual_fcu::VirtualFcu> fcu_;
@@ -88,13 +92,13 @@ class Bench {
   std::unique_ptr<hil_bridge::Lockstep> lockstep_;
   std::unique_ptr<Recorder> recorder_;
   SignalTable signals_;
-  std::unique_ptr<CheckList> checks_;
-  std::unique_ptr<RunMetrics> metrics_;
-  std::unique_ptr<EventDetector> detector_;
-  Timeline timeline_;
+  std::unique_ptr<Judge> judge_;
+  GroundWatch ground_;
   Script script_;
   std::vector<Deed> deeds_;
-  std::size_t published_ = 0;
+  std::vector<std::string> broken_promises_;
+  std::size_t published_events_ = 0;
+  std::uint32_t recorded_route_ = 0;
   bool ended_ = false;
   bool interrupted_ = false;
 };
