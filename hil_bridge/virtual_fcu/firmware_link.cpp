@@ -101,7 +101,8 @@ void Firmware::send_rc_channels(const RcFrame& frame) {
   rosflight::RcChannels message{};
   message.time_boot_ms = now_ms();
   for (std::size_t k = 0; k < kReported; ++k) {
-    message.chan_raw[k] = static_cast<std::uint16_t>(1000.0F * frame.channels[k] + 1000.0F);
+    const float width = 1000.0F * frame.channels[k] + 1000.0F;
+    message.chan_raw[k] = width > 0.0F && width < 65536.0F ? static_cast<std::uint16_t>(width) : 0;
   }
   telemetry_.send(message);
 }
