@@ -1,6 +1,8 @@
 #include "autopilot/modules.hpp"
 
 #include "autopilot/controller/cascaded_controller.hpp"
+#include "autopilot/estimator/ekf.hpp"
+#include "autopilot/estimator/external_pose_estimator.hpp"
 #include "autopilot/path_manager/minimum_snap_manager.hpp"
 #include "autopilot/path_manager/smoothstep_manager.hpp"
 #include "autopilot/path_planner/waypoint_planner.hpp"
@@ -10,6 +12,8 @@ namespace ironbird::autopilot {
 
 Modules standard_modules() {
   Modules modules;
+  modules.estimators.add<Ekf>("ekf");
+  modules.estimators.add<ExternalPoseEstimator>("external_pose");
   modules.path_planners.add<WaypointPlanner>("waypoint_planner");
   modules.path_managers.add<SmoothstepManager>("smoothstep_manager");
   modules.path_managers.add<MinimumSnapManager>("minimum_snap_manager");

@@ -5,7 +5,7 @@
 
 #include "autopilot/math/angles.hpp"
 #include "autopilot/math/finite.hpp"
-#include "autopilot/path_planner/to_local.hpp"
+#include "autopilot/math/local_map.hpp"
 #include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
@@ -148,7 +148,7 @@ void WaypointPlanner::put_in_force(const LocalOrigin& origin) {
   if (waiting_) return;
   origin_ = origin;
   for (Waypoint& waypoint : wanted_) {
-    if (waypoint.geodetic) waypoint.p_N = to_local(*waypoint.geodetic, origin);
+    if (waypoint.geodetic) waypoint.p_N = local_from_geodetic(*waypoint.geodetic, origin);
   }
   route_.waypoints.assign(wanted_.begin(), wanted_.end());
   route_.cyclic = wanted_cyclic_;
