@@ -32,6 +32,12 @@ class BoundsCheck {
       Value::describe(value, BoundsCheck(path));
     } else if constexpr (std::is_arithmetic_v<Value>) {
       examine_number(path, static_cast<double>(value), unit, lower, upper);
+    } else if constexpr (requires { value.has_value(); }) {
+      if (value) examine(path, *value, unit, lower, upper);
+    } else if constexpr (requires { value.reshaped(); }) {
+      for (int i = 0; i < value.size(); ++i) {
+        examine(path + "[" + std::to_string(i) + "]", value.reshaped()[i], unit, lower, upper);
+      }
     } else if constexpr (requires { value.begin(), value.end(); } && !std::is_same_v<Value, std::string>) {
       int index = 0;
       for (const auto& item : value) {
