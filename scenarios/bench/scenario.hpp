@@ -11,7 +11,7 @@
 
 #include "autopilot/types/control_setpoint.hpp"
 #include "autopilot/types/mission.hpp"
-#include "hil_bridge/virtual_fcu/virtual_fcu_config.hpp"
+#include "hil_bridge/virtual_fcu/firmware_host.hpp"
 #include "scenarios/requirements/check_config.hpp"
 #include "simulator/environment/environment.hpp"
 #include "simulator/fault/fault.hpp"
@@ -261,6 +261,32 @@ struct Scenario {
   std::vector<CutConfig> cuts;
   std::vector<SnapshotConfig> snapshots;
   RecordConfig record;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("title", self.title, "", "what the scenario shows");
+    visit("source", self.source, "", "where it comes from");
+    visit("vehicle", self.vehicle_folder, "", "folder with vehicle.toml, sensors.toml, fcu.toml, autopilot.toml");
+    visit("field", self.field, "", "picture of the place");
+    visit("seed", self.seed, "1", "of every random stream");
+    visit("duration", self.duration, "s", "when the run ends at the latest", 0.1, 86400.0);
+    visit("end_after", self.end_after, "", "the event that ends the run earlier");
+    visit("end_delay", self.end_delay, "s", "how long after it", 0.0, 86400.0);
+    visit("cyclic", self.cyclic, "1", "after the last waypoint comes the first");
+    visit("plant", self.plant, "", "physics engine");
+    visit("start", self.start, "", "where the vehicle stands at time zero");
+    visit("pilot", self.pilot, "", "what pilot and operator do by themselves");
+    visit("environment", self.environment, "", "air, wind, gravity, magnetic field");
+    visit("sensors", self.sensors, "", "the vehicle's sensors");
+    visit("fcu", self.fcu, "", "the flight-control unit");
+    visit("waypoint", self.waypoints, "", "the mission, one table each");
+    visit("event", self.events, "", "what happens, one table each");
+    visit("check", self.checks, "", "what must hold, one table each");
+    visit("camera", self.cameras, "", "fixed cameras, one table each");
+    visit("cut", self.cuts, "", "when the film changes cameras, one table each");
+    visit("snapshot", self.snapshots, "", "pictures to take, one table each");
+    visit("record", self.record, "", "what the log holds");
+  }
 };
 
 }  // namespace ironbird::scenarios
