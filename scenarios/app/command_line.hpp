@@ -21,13 +21,11 @@ struct Verb {
 
 Verb run_verb();
 Verb check_verb();
-Verb report_verb();
-Verb video_verb();
-Verb snapshot_verb();
 Verb topics_verb();
 
 /// The whole program: reads the command line, runs one verb, reports errors in one line.
-/// @param modules  the kinds of module that scenarios can name; a researcher adds their own to standard_modules()
+/// @param modules  the kinds of module that scenarios can name; a researcher adds their own to
+/// standard_modules()
 /// @return the exit code
 int run_command_line(int argc, char** argv, const autopilot::Modules& modules);
 

@@ -16,12 +16,14 @@ using autopilot::ParameterSlot;
 using autopilot::ParameterTable;
 using autopilot::ParameterValue;
 
-/// One slot of the autopilot: its name, its place in the configuration, and how to see the parameters of a kind.
+/// One slot of the autopilot: its name, its place in the configuration, and how to see the parameters of a
+/// kind.
 struct SlotAccess {
   std::string name;
   AutopilotConfig::Slot* slot;
   std::function<std::vector<std::string>()> kinds;
-  /// Registers the parameters of a new module of `kind` under the slot's name. The module lives as long as the return value.
+  /// Registers the parameters of a new module of `kind` under the slot's name. The module lives as long as
+  /// the return value.
   std::function<std::shared_ptr<void>(const std::string& kind, ParameterTable&)> make;
 };
 
@@ -58,8 +60,8 @@ class AutopilotReader {
     if (table != nullptr) read_slot(*table, access);
     const std::vector<std::string> kinds = access.kinds();
     if (std::find(kinds.begin(), kinds.end(), access.slot->kind) == kinds.end()) {
-      return report("autopilot." + access.name + ".kind = \"" + access.slot->kind + "\": there is no such module; there are: " +
-                    joined(kinds));
+      return report("autopilot." + access.name + ".kind = \"" + access.slot->kind +
+                    "\": there is no such module; there are: " + joined(kinds));
     }
     for (const std::string& kind : kinds) {
       ParameterTable parameters;
@@ -71,7 +73,8 @@ class AutopilotReader {
         read_parameters(*own, kind_path, access.name, parameters, settings, {});
       }
       if (table != nullptr && kind == access.slot->kind) {
-        read_parameters(*table, "autopilot." + access.name, access.name, parameters, settings, {"kind", "period"});
+        read_parameters(*table, "autopilot." + access.name, access.name, parameters, settings,
+                        {"kind", "period"});
       }
       loaded_.modules.push_back(std::move(settings));
     }
@@ -88,7 +91,8 @@ class AutopilotReader {
       for (const std::string& kind : slot.kinds()) kinds.push_back(kind);
     }
     report_strangers(*all, "autopilot", names);
-    if (const toml::table* tables = (*all)["kinds"].as_table()) report_strangers(*tables, "autopilot.kinds", kinds);
+    if (const toml::table* tables = (*all)["kinds"].as_table())
+      report_strangers(*tables, "autopilot.kinds", kinds);
   }
 
   void finish() const {
@@ -99,7 +103,8 @@ class AutopilotReader {
   void read_slot(const toml::table& table, const SlotAccess& access) {
     TomlReader reader;
     const std::string path = "autopilot." + access.name;
-    if (const toml::node* kind = table.get("kind")) reader.read_value(*kind, access.slot->kind, {""}, path + ".kind");
+    if (const toml::node* kind = table.get("kind"))
+      reader.read_value(*kind, access.slot->kind, {""}, path + ".kind");
     if (const toml::node* period = table.get("period")) {
       reader.read_value(*period, access.slot->period, {"ns", 0.0, 1e10}, path + ".period");
       check_period(access.slot->period, path);
@@ -110,7 +115,8 @@ class AutopilotReader {
   void check_period(autopilot::Time period, const std::string& path) {
     const auto tick = loaded_.scenario.fcu.tick;
     if (tick.count() <= 0 || period.count() % tick.count() == 0) return;
-    const double below = static_cast<double>(period.count() / tick.count()) * static_cast<double>(tick.count()) * 1e-6;
+    const double below =
+        static_cast<double>(period.count() / tick.count()) * static_cast<double>(tick.count()) * 1e-6;
     const double step = static_cast<double>(tick.count()) * 1e-6;
     report(path + ".period = " + std::to_string(static_cast<double>(period.count()) * 1e-6) +
            " ms: must be a multiple of the tick; the nearest are " + std::to_string(below) + " ms and " +
@@ -148,29 +154,30 @@ class AutopilotReader {
   ParameterValue read_value(const toml::node& node, const ParameterSlot& slot, const std::string& path) {
     TomlReader reader;
     const Allowed allowed{slot.unit, slot.lower, slot.upper};
-    ParameterValue value = std::visit([](const auto* current) { return ParameterValue(*current); }, slot.value);
+    ParameterValue value =
+        std::visit([](const auto* current) { return ParameterValue(*current); }, slot.value);
     std::visit([&](auto& typed) { reader.read_value(node, typed, allowed, path); }, value);
     take(reader);
     return value;
   }
 
-  void report_unknown_parameter(const std::string& shown, const std::string& full, const ModuleSettings& settings,
-                                const ParameterTable& parameters) {
+  void report_unknown_parameter(const std::string& shown, const std::string& full,
+                                const ModuleSettings& settings, const ParameterTable& parameters) {
     std::vector<std::string> names;
     for (const ParameterSlot& slot : parameters.slots()) names.push_back(slot.path);
     std::string text = shown + ": module \"" + settings.kind + "\" has no such parameter";
-    if (const auto nearest = nearest_name(full, names)) {
-      text += "; did you mean " + nearest->substr(settings.slot.size() + 1) + "?";
-    }
+    const std::string nearest = nearest_name(full, names);
+    if (!nearest.empty()) text += "; did you mean " + nearest.substr(settings.slot.size() + 1) + "?";
     report(text);
   }
 
-  void report_strangers(const toml::table& table, const std::string& path, const std::vector<std::string>& names) {
+  void report_strangers(const toml::table& table, const std::string& path,
+                        const std::vector<std::string>& names) {
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
       if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-      const auto nearest = nearest_name(name, names);
-      report(path + "." + name + ": unknown" + (nearest ? "; did you mean " + *nearest + "?" : ""));
+      const std::string nearest = nearest_name(name, names);
+      report(path + "." + name + ": unknown" + (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
     }
   }
 

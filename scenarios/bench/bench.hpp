@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,7 +32,7 @@ struct Progress {
 
 /// What a run does beside flying.
 struct BenchOptions {
-  std::filesystem::path log_file;                   ///< empty: no log
+  std::filesystem::path log_file;                    ///< empty: no log
   std::function<bool(const Progress&)> on_progress;  ///< called every simulated second; false: stop the run
 };
 
@@ -41,7 +42,8 @@ class Bench {
   using Time = std::chrono::nanoseconds;
 
   /// @param loaded  outlives the bench
-  /// @throws std::invalid_argument when the scenario cannot be wired, std::runtime_error when the log cannot be made
+  /// @throws std::invalid_argument when the scenario cannot be wired, std::runtime_error when the log cannot
+  /// be made
   Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, BenchOptions options);
   ~Bench();
 
@@ -61,7 +63,7 @@ class Bench {
  private:
   /// What an item of the script stands for.
   struct Deed {
-    enum class Kind { kEvent, kFaultEnd, kArm, kTakeOff, kDisarm, kSnapshot, kEnd };
+    enum class Kind { kEvent, kFaultEnd, kArm, kHandOver, kTakeOff, kDisarm, kSnapshot, kEnd };
     Kind kind = Kind::kEvent;
     std::size_t index = 0;  // into the scenario's events or snapshots, or the number of a fault
   };
@@ -87,7 +89,7 @@ class Bench {
   const Scenario& scenario_;
   BenchOptions options_;
   std::unique_ptr<simulator::World> world_;
-  std::unique_ptr<hil_bridge::virtual_fcu::VirtualFcu> fcu_;
+  std::unique_ptr<hil_bridge::VirtualFcu> fcu_;
   std::unique_ptr<autopilot::Autopilot> autopilot_;
   std::unique_ptr<hil_bridge::Lockstep> lockstep_;
   std::unique_ptr<Recorder> recorder_;
@@ -96,6 +98,7 @@ class Bench {
   GroundWatch ground_;
   Script script_;
   std::vector<Deed> deeds_;
+  std::map<std::size_t, std::string> running_faults_;  // by number
   std::vector<std::string> broken_promises_;
   std::size_t published_events_ = 0;
   std::uint32_t recorded_route_ = 0;

@@ -11,8 +11,8 @@ namespace ironbird::scenarios {
 /// The pilot's eyes: sees the vehicle leave the ground and come to rest on it again.
 class GroundWatch {
  public:
-  /// @return "lifted_off" when the vehicle lost the ground for the first time since it stood on it, "landed" when it has touched the
-  /// ground for half a second since then, otherwise nothing
+  /// @return "lifted_off" when the vehicle lost the ground for the first time since it stood on it, "landed"
+  /// when it has touched the ground for half a second since then, otherwise nothing
   std::optional<std::string_view> observe(const simulator::Truth& truth);
 
  private:

@@ -266,7 +266,8 @@ struct Scenario {
   static void describe(Self& self, Visit&& visit) {
     visit("title", self.title, "", "what the scenario shows");
     visit("source", self.source, "", "where it comes from");
-    visit("vehicle", self.vehicle_folder, "", "folder with vehicle.toml, sensors.toml, fcu.toml, autopilot.toml");
+    visit("vehicle", self.vehicle_folder, "",
+          "folder with vehicle.toml, sensors.toml, fcu.toml, autopilot.toml");
     visit("field", self.field, "", "picture of the place");
     visit("seed", self.seed, "1", "of every random stream");
     visit("duration", self.duration, "s", "when the run ends at the latest", 0.1, 86400.0);

@@ -17,7 +17,8 @@ constexpr const char* kVehicleFiles[] = {"vehicle.toml", "sensors.toml", "fcu.to
 
 /// The folder above `file`, or above the working folder, in which models/ lies.
 std::filesystem::path find_project_root(const std::filesystem::path& file) {
-  for (const std::filesystem::path& start : {std::filesystem::absolute(file).parent_path(), std::filesystem::current_path()}) {
+  for (const std::filesystem::path& start :
+       {std::filesystem::absolute(file).parent_path(), std::filesystem::current_path()}) {
     for (std::filesystem::path folder = start;; folder = folder.parent_path()) {
       if (std::filesystem::is_directory(folder / "models")) return folder;
       if (folder == folder.root_path()) break;
@@ -41,7 +42,8 @@ std::string vehicle_folder(const toml::table& scenario, const Overrides& overrid
 }
 
 /// The vehicle's files, those that are there, merged.
-toml::table load_vehicle(const std::filesystem::path& root, const std::string& folder, const toml::table& scenario) {
+toml::table load_vehicle(const std::filesystem::path& root, const std::string& folder,
+                         const toml::table& scenario) {
   const std::filesystem::path place = root / folder;
   if (!std::filesystem::exists(place / "vehicle.toml")) {
     const toml::node* node = scenario.get("vehicle");
@@ -90,7 +92,8 @@ void read_scenario(const toml::table& root, LoadedScenario& loaded) {
   Scenario& scenario = loaded.scenario;
   TomlReader reader;
   toml::table without_vehicle_table = root;
-  // `vehicle` names the folder in a scenario and is the table in the folder's file: the loader has put the table under [vehicle].
+  // `vehicle` names the folder in a scenario and is the table in the folder's file: the loader has put the
+  // table under [vehicle].
   const toml::table* vehicle = root["vehicle"].as_table();
   without_vehicle_table.erase("vehicle");
   reader.read(without_vehicle_table, scenario, "", {"autopilot", "include"});
@@ -110,7 +113,8 @@ ConfigError LoadedScenario::located(const std::invalid_argument& error) const {
   const std::string text = error.what();
   std::string path = text.substr(0, text.find_first_of(" :="));
   while (!path.empty()) {
-    const auto found = std::find_if(places.begin(), places.end(), [&](const auto& p) { return p.first == path; });
+    const auto found =
+        std::find_if(places.begin(), places.end(), [&](const auto& p) { return p.first == path; });
     if (found != places.end()) return ConfigError(found->second + ": " + text);
     const std::size_t cut = path.find_last_of(".[");
     path = cut == std::string::npos ? std::string() : path.substr(0, cut);

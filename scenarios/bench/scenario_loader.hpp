@@ -37,16 +37,19 @@ struct LoadedScenario {
   std::vector<ModuleSettings> modules;
   std::string effective_config;  ///< the whole configuration as TOML
   std::string digest;            ///< SHA-256 of it
-  std::vector<std::pair<std::string, std::string>> places;  ///< where each table was read: path, file:line:column
+  std::vector<std::pair<std::string, std::string>>
+      places;  ///< where each table was read: path, file:line:column
 
   /// The settings for a module of this kind in this slot.
   const ModuleSettings* settings_of(const std::string& slot, const std::string& kind) const;
 
-  /// The error with the place in the files that it is about, as far as its first words are a path of the configuration.
+  /// The error with the place in the files that it is about, as far as its first words are a path of the
+  /// configuration.
   ConfigError located(const std::invalid_argument& error) const;
 };
 
-/// Reads a scenario, its includes and its vehicle's files, and checks everything that can be checked without flying.
+/// Reads a scenario, its includes and its vehicle's files, and checks everything that can be checked without
+/// flying.
 /// @param modules  the kinds that `[autopilot]` can name
 /// @throws ConfigError with one line for each finding
 LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides& overrides,

@@ -43,7 +43,8 @@ class Rules {
   void check_field() {
     const std::filesystem::path field = loaded_.project_root / loaded_.scenario.field;
     if (!loaded_.scenario.field.empty() && !std::filesystem::exists(field)) {
-      report("field = \"" + loaded_.scenario.field + "\": there is no such file; fields are in models/fields");
+      report("field = \"" + loaded_.scenario.field +
+             "\": there is no such file; fields are in models/fields");
     }
   }
 
@@ -55,7 +56,8 @@ class Rules {
       if (!std::isfinite(waypoints[i].heading)) report(path + ".heading: must be finite");
     }
     if (loaded_.scenario.cyclic && waypoints.size() < 2) {
-      report("cyclic = true: a round needs at least two waypoints, found " + std::to_string(waypoints.size()));
+      report("cyclic = true: a round needs at least two waypoints, found " +
+             std::to_string(waypoints.size()));
     }
   }
 
@@ -66,9 +68,11 @@ class Rules {
       const EventConfig& event = events[i];
       if (deeds_of(event) != 1) {
         report(path + ": does " + std::to_string(deeds_of(event)) +
-               " things, must do exactly one of fault, pilot, request, add_waypoint, remove_waypoint, setpoint, swap, set");
+               " things, must do exactly one of fault, pilot, request, add_waypoint, remove_waypoint, "
+               "setpoint, swap, set");
       }
-      if (!event.swap.empty() && event.kind.empty()) report(path + ".swap: needs the kind of the new module in `kind`");
+      if (!event.swap.empty() && event.kind.empty())
+        report(path + ".swap: needs the kind of the new module in `kind`");
       if (event.setpoint) check_setpoint(path, *event.setpoint);
     }
   }
@@ -86,8 +90,9 @@ class Rules {
     for (const CameraConfig& camera : loaded_.scenario.cameras) names.push_back(camera.name);
     const auto check = [&](const std::string& path, const std::string& name) {
       if (std::find(names.begin(), names.end(), name) == names.end()) {
+        const std::string nearest = nearest_name(name, names);
         report(path + ".camera = \"" + name + "\": there is no such camera; did you mean \"" +
-               nearest_name(name, names).value_or("chase") + "\"?");
+               (nearest.empty() ? "chase" : nearest) + "\"?");
       }
     };
     for (std::size_t i = 0; i < loaded_.scenario.snapshots.size(); ++i) {
@@ -119,7 +124,8 @@ autopilot::ControlSetpoint only_setpoint(const SetpointConfig& config) {
     if (entry) given.emplace_back(*entry);
   });
   if (given.size() != 1) {
-    throw std::invalid_argument("gives " + std::to_string(given.size()) + " entry points, must give exactly one");
+    throw std::invalid_argument("gives " + std::to_string(given.size()) +
+                                " entry points, must give exactly one");
   }
   return given.front();
 }

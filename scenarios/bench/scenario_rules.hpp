@@ -4,8 +4,8 @@
 
 namespace ironbird::scenarios {
 
-/// What a scenario must obey beyond the types and bounds of its single values: each event does exactly one thing, names of cameras and
-/// of faults' rotors exist, there is something to fly, the field is there.
+/// What a scenario must obey beyond the types and bounds of its single values: each event does exactly one
+/// thing, names of cameras and of faults' rotors exist, there is something to fly, the field is there.
 /// @throws ConfigError with one line for each finding
 void check_rules(const LoadedScenario& loaded);
 
