@@ -102,7 +102,8 @@ void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
   const MagParams& wanted = aiding().mag;
   const ErrorMagModel model = error_state_mag(x_, m_B, wanted.declination);
   // Noise of the unit vector turns the azimuth by itself over the horizontal part.
-  const double R = square(wanted.sigma) / std::max(model.levelness, kLeastLevelness) + square(wanted.sigma_tilt);
+  const double R =
+      square(wanted.sigma) / std::max(model.levelness, kLeastLevelness) + square(wanted.sigma_tilt);
   const double S = model.H * P_.block<3, 3>(kT, kT) * model.H.transpose() + R;
   innovations_.heading = model.innovation;
   const Verdict verdict =
