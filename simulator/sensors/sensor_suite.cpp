@@ -53,7 +53,13 @@ void SensorChannel<Sensor>::sample(const Truth& truth, Time now, const FaultStat
   if (clock_.due(now)) {
     typename Sensor::Reading reading = sensor_.measure(truth, now, faults, armed);
     if (outage.non_finite) Sensor::Reading::describe(reading, Spoil());
-    if (!outage.dropout) line_.push(now + latency_, reading);
+    if (!outage.dropout) {
+      if (latency_ == Time::zero()) {
+        out = reading;
+        return;
+      }
+      line_.push(now + latency_, reading);
+    }
   }
   line_.pop(now, out);
 }

@@ -22,8 +22,6 @@ SensorSuiteParams usual() {
   spoil(params.barometer.error);
   spoil(params.gnss.horizontal);
   spoil(params.gnss.vertical);
-  params.imu.accelerometer.random_walk = 1e-4;
-  params.imu.gyro.random_walk = 1e-5;
   params.imu.accelerometer_vibration = 1e-6;
   params.imu.gyro_vibration = 2e-8;
   params.imu.accelerometer.full_scale = 235.0;
