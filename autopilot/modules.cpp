@@ -2,6 +2,7 @@
 
 #include "autopilot/controller/cascaded_controller.hpp"
 #include "autopilot/estimator/ekf.hpp"
+#include "autopilot/estimator/error_state_filter.hpp"
 #include "autopilot/estimator/external_pose_estimator.hpp"
 #include "autopilot/path_manager/minimum_snap_manager.hpp"
 #include "autopilot/path_manager/smoothstep_manager.hpp"
@@ -13,6 +14,7 @@ namespace ironbird::autopilot {
 Modules standard_modules() {
   Modules modules;
   modules.estimators.add<Ekf>("ekf");
+  modules.estimators.add<ErrorStateFilter>("error_state");
   modules.estimators.add<ExternalPoseEstimator>("external_pose");
   modules.path_planners.add<WaypointPlanner>("waypoint_planner");
   modules.path_managers.add<SmoothstepManager>("smoothstep_manager");

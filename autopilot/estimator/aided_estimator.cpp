@@ -16,6 +16,7 @@ namespace {
 constexpr double kLongestStep = 0.02;  // s, a longer gap between IMU samples is crossed in several steps
 constexpr double kLongestGap = 0.5;    // s, beyond this a held IMU sample says nothing
 constexpr double kImuSilence = 0.05;   // s
+constexpr double kSoonAgain = 15.0;    // s, between two resets of velocity or heading
 constexpr double kFreshFix = 1.0;      // s, a fix that may still replace a broken state
 
 }  // namespace
@@ -24,6 +25,9 @@ void AidedEstimator::reset() {
   Estimator::reset();
   alignment_.reset();
   running_ = false;
+  realigning_ = false;
+  seen_resets_ = 0;
+  last_reset_ = Time{0};
   origin_ = LocalOrigin{};
   baro_ = BaroModel{};
   origin_pressure_.reset();
@@ -39,6 +43,7 @@ void AidedEstimator::reset() {
   last_good_ = StateEstimate{};
   late_fixes_ = 0;
   recoveries_ = 0;
+  realignments_ = 0;
 }
 
 void AidedEstimator::begin(const StartState& found, Time now) {
@@ -89,6 +94,7 @@ StateEstimate AidedEstimator::estimate(const SensorFrame& frame, double dt) {
     advance(frame.imu, step);
     fuse(frame);
     if (!is_finite()) recover(now);
+    realign_if_hopeless(frame, step);
   }
   StateEstimate out;
   out.stamp = now;
@@ -208,13 +214,39 @@ void AidedEstimator::recover(Time now) {
   delay_line_.clear();
 }
 
+void AidedEstimator::realign_if_hopeless(const SensorFrame& frame, double dt) {
+  const Time now = frame.imu.stamp;
+  const int resets = gates_.velocity.resets() + gates_.mag.resets();
+  if (resets > seen_resets_) {
+    // One reset may be the sensor's fault. A second one soon after means that the attitude is wrong.
+    if (seen_resets_ > 0 && seconds(now - last_reset_) < kSoonAgain && !realigning_) {
+      realigning_ = true;
+      alignment_.restart_in_motion();
+    }
+    seen_resets_ = resets;
+    last_reset_ = now;
+  }
+  if (!realigning_ || !alignment_.add(frame, dt, aiding())) return;
+  realigning_ = false;
+  ++realignments_;
+  StartState again = alignment_.start();
+  const GeodeticPosition place = geodetic_from_local(again.p_NB_N, again.origin);
+  again.p_NB_N.head<2>() = local_from_geodetic(place.latitude, place.longitude, origin_);
+  again.p_NB_N.z() = kinematics().p_N.z();  // the barometer has gone on correcting the height
+  again.origin = origin_;
+  again.accelerometer_offset_B = accelerometer_offset_B_;
+  again.moving = true;
+  start(again);
+  delay_line_.clear();
+}
+
 void AidedEstimator::look_after(StateEstimate& estimate, Time now, double dt) {
   const AidingParams& wanted = aiding();
   const bool silent = seconds(now - heard_.mag) > wanted.mag.silence ||
                       seconds(now - heard_.baro) > wanted.baro.silence ||
                       seconds(now - heard_.gnss) > wanted.gnss.silence || dt > kImuSilence;
   const bool refusing = gates_.position.disagreeing() || gates_.velocity.disagreeing() ||
-                        gates_.baro.disagreeing() || gates_.mag.disagreeing();
+                        gates_.baro.disagreeing() || gates_.mag.disagreeing() || realigning_;
   const bool unsure = estimate.sigma_v_B.maxCoeff() > wanted.lost_speed;
   estimate.health = unsure ? Health::kLost : (silent || refusing ? Health::kDegraded : Health::kGood);
   last_good_ = estimate;
@@ -238,6 +270,7 @@ void AidedEstimator::probe(ProbeVisitor& visit) const {
         "1");
   visit("late_fixes", late_fixes_, "1");
   visit("recoveries", recoveries_, "1");
+  visit("realignments", realignments_, "1");
   visit("accelerometer_offset", accelerometer_offset_B_, "m/s^2");
   visit("origin_pressure", origin_pressure_.value_or(0.0), "Pa");
   probe_filter(visit);

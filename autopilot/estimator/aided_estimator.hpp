@@ -66,6 +66,9 @@ class AidedEstimator : public Estimator {
   /// How often the state was not finite and was rebuilt.
   int recoveries() const { return recoveries_; }
 
+  /// How often velocity or heading disagreed so often that the attitude was sought anew.
+  int realignments() const { return realignments_; }
+
  protected:
   /// Position and velocity in N.
   using Kinematics = DelayLine::Past;
@@ -125,11 +128,15 @@ class AidedEstimator : public Estimator {
   template <class Correction>
   void tell_delay_line(Correction&& correction);
   void recover(Time now);
+  void realign_if_hopeless(const SensorFrame& frame, double dt);
   void filter_rates(const Vector3& w_B, double dt);
   void look_after(StateEstimate& estimate, Time now, double dt);
 
   Alignment alignment_;
   bool running_ = false;
+  bool realigning_ = false;
+  int seen_resets_ = 0;
+  Time last_reset_{0};
   LocalOrigin origin_;
   BaroModel baro_;
   std::optional<double> origin_pressure_;
@@ -144,6 +151,7 @@ class AidedEstimator : public Estimator {
   StateEstimate last_good_;
   int late_fixes_ = 0;
   int recoveries_ = 0;
+  int realignments_ = 0;
 };
 
 }  // namespace ironbird::autopilot

@@ -80,6 +80,11 @@ void Alignment::reset() {
   start_ = StartState{};
 }
 
+void Alignment::restart_in_motion() {
+  reset();
+  armed_ = true;
+}
+
 void Alignment::begin_window(Time now) {
   window_ = Window{};
   window_.begin = now;

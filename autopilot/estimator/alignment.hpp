@@ -57,6 +57,9 @@ class Alignment {
  public:
   void reset();
 
+  /// Begins anew for a vehicle in flight: does not wait for it to come to rest.
+  void restart_in_motion();
+
   /// Adds one frame. @return true when the start is found
   bool add(const SensorFrame& frame, double dt, const AidingParams& params);
 

@@ -9,8 +9,8 @@ namespace ironbird::autopilot {
 namespace {
 
 // Beyond these a sample is a transmission fault, not a measurement.
-constexpr double kMostSpecificForce = 1.0e4;  // m/s^2
-constexpr double kMostRate = 1.0e3;           // rad/s
+constexpr double kMostSpecificForce = 1.0e3;  // m/s^2, 100 g
+constexpr double kMostRate = 1.0e2;           // rad/s, 16 turns per second
 constexpr double kMostField = 1.0e9;          // whatever the unit
 constexpr double kMostSpeed = 1.0e3;          // m/s
 constexpr double kMostDistance = 1.0e6;       // m
