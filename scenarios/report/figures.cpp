@@ -28,9 +28,10 @@ std::string name_of(Role role) {
 
 /// Style of one curve: by role when there is one run, by run when there are several.
 std::string style_of(Role role, std::size_t run, std::size_t runs) {
-  if (runs == 1) return role == Role::kCommand ? "command dashed" : role == Role::kEstimate ? "c0" : "c1";
+  if (runs == 1)
+    return role == Role::kCommand ? "command plain" : role == Role::kEstimate ? "c0" : "c1 under";
   const std::string colour = "c" + std::to_string(run % 8);
-  return colour + (role == Role::kCommand ? " dotted" : role == Role::kEstimate ? " dashed" : "");
+  return colour + (role == Role::kCommand ? " command" : role == Role::kEstimate ? " dashed" : "");
 }
 
 std::string label_of(Role role, const ReportRun& run, std::size_t runs) {
@@ -86,9 +87,9 @@ plot::Panel axis_panel(const std::vector<ReportRun>& runs, const char* title, co
   PanelMaker maker(runs, title, "m", 0.5);
   const std::string suffix(axis);
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    maker.add(Role::kCommand, i, curve_of(runs[i], kTrajectory, "p_N" + suffix), kTrajectory);
     maker.add(Role::kTruth, i, curve_of(runs[i], kTruthTopic, "p_NB_N" + suffix), kTruthTopic);
     maker.add(Role::kEstimate, i, curve_of(runs[i], kEstimateTopic, "p_NB_N" + suffix), kEstimateTopic);
-    maker.add(Role::kCommand, i, curve_of(runs[i], kTrajectory, "p_N" + suffix), kTrajectory);
   }
   return std::move(maker).done();
 }
@@ -100,12 +101,12 @@ Curve degrees(const Curve& curve) {
 plot::Panel heading_panel(const std::vector<ReportRun>& runs) {
   PanelMaker maker(runs, "heading", "deg", 4.0);
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    maker.add(Role::kCommand, i, broken_at_wraps(degrees(curve_of(runs[i], kTrajectory, "heading"))),
+              kTrajectory);
     maker.add(Role::kTruth, i, broken_at_wraps(degrees(angles_of(runs[i], kTruthTopic, "q_NB")[2])),
               kTruthTopic);
     maker.add(Role::kEstimate, i, broken_at_wraps(degrees(curve_of(runs[i], kEstimateTopic, "heading"))),
               kEstimateTopic);
-    maker.add(Role::kCommand, i, broken_at_wraps(degrees(curve_of(runs[i], kTrajectory, "heading"))),
-              kTrajectory);
   }
   return std::move(maker).done();
 }
@@ -127,9 +128,9 @@ Curve setpoint_angle(const ReportRun& run, const std::string& angle) {
 plot::Panel tilt_panel(const std::vector<ReportRun>& runs, const char* name, std::size_t axis) {
   PanelMaker maker(runs, name, "deg", 2.0);
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    maker.add(Role::kCommand, i, degrees(setpoint_angle(runs[i], name)), kSetpoint);
     maker.add(Role::kTruth, i, degrees(angles_of(runs[i], kTruthTopic, "q_NB")[axis]), kTruthTopic);
     maker.add(Role::kEstimate, i, degrees(curve_of(runs[i], kEstimateTopic, name)), kEstimateTopic);
-    maker.add(Role::kCommand, i, degrees(setpoint_angle(runs[i], name)), kSetpoint);
   }
   return std::move(maker).done();
 }
@@ -147,9 +148,9 @@ Curve length_of(const ReportRun& run, std::string_view topic, const std::string&
 plot::Panel speed_panel(const std::vector<ReportRun>& runs) {
   PanelMaker maker(runs, "speed", "m/s", 0.5);
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    maker.add(Role::kCommand, i, length_of(runs[i], kTrajectory, "v_N"), kTrajectory);
     maker.add(Role::kTruth, i, length_of(runs[i], kTruthTopic, "v_NB_N"), kTruthTopic);
     maker.add(Role::kEstimate, i, length_of(runs[i], kEstimateTopic, "v_NB_B"), kEstimateTopic);
-    maker.add(Role::kCommand, i, length_of(runs[i], kTrajectory, "v_N"), kTrajectory);
   }
   return std::move(maker).done();
 }
@@ -255,7 +256,9 @@ plot::TimeFrame time_frame(const std::vector<ReportRun>& runs) {
   for (const RunEvent& event : runs.front().events()) {
     if (event.kind == "phase" || event.kind == "health" || event.kind == "arming") continue;
     const bool is_fault = event.kind.starts_with("fault") || event.kind == "gust";
-    frame.marks.push_back({event.time, event.kind + ": " + event.text, is_fault ? "fault" : ""});
+    const std::string ending = event.kind.ends_with("_end") ? " ends" : "";
+    frame.marks.push_back(
+        {event.time, event.kind + ": " + event.text, event.text + ending, is_fault ? "fault" : ""});
   }
   return frame;
 }
@@ -268,7 +271,7 @@ plot::Plane path_from_above(const std::vector<ReportRun>& runs) {
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     plane.places.push_back({std::to_string(i + 1), {waypoints[i][1], waypoints[i][0]}});
   }
-  plot::Track planned{"planned", "command dashed", {}};
+  plot::Track planned{"planned", "command plain", {}};
   for (const plot::Place& place : plane.places) planned.points.push_back(place.point);
   if (!planned.points.empty() && is_cyclic(runs.front())) planned.points.push_back(planned.points.front());
   if (!planned.points.empty()) plane.tracks.push_back(std::move(planned));

@@ -24,7 +24,7 @@ const char* const kPageScript = R"js(
     const first = panels[0], last = panels[panels.length - 1];
     const cursor = make('line', { class: 'cursor', y1: first.top, y2: last.bottom, visibility: 'hidden' }, svg);
     return { svg, panels, cursor, left: +data.left, right: +data.right, from: +data.from, to: +data.to,
-             axis: svg.querySelector('.time-axis'), names: svg.querySelector('.phase-names'), bottom: last.bottom };
+             axis: svg.querySelector('.time-axis'), names: svg.querySelectorAll('.phase-names, .mark-names'), bottom: last.bottom };
   });
   if (!stacks.length) return;
   const full = { from: stacks[0].from, to: stacks[0].to };
@@ -81,7 +81,7 @@ const char* const kPageScript = R"js(
       const scale = (s.to - s.from) / (view.to - view.from);
       const shift = xOf(s, s.from) - s.left * scale;
       for (const g of s.svg.querySelectorAll('g.zoom')) g.setAttribute('transform', 'matrix(' + scale + ' 0 0 1 ' + shift + ' 0)');
-      s.names.setAttribute('visibility', scale > 1.001 ? 'hidden' : 'visible');
+      for (const g of s.names) g.setAttribute('visibility', scale > 1.001 ? 'hidden' : 'visible');
       s.axis.replaceChildren();
       const step = niceStep(view.to - view.from, Math.max(2, Math.floor((s.right - s.left) / 70)));
       const decimals = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));

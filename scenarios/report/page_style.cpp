@@ -62,11 +62,11 @@ text.number, .axis-name, .legend, .unit, .missing { fill: var(--soft); } text.nu
 .panel-title { font-weight: 600; } .unit { font-weight: 400; }
 .curve { fill: none; stroke: var(--ink); stroke-width: 1.6; stroke-linejoin: round; vector-effect: non-scaling-stroke; } .curve.thin { stroke-width: 1.1; }
 .curve.c0 { stroke: var(--c0); } .curve.c1 { stroke: var(--c1); } .curve.c2 { stroke: var(--c2); } .curve.c3 { stroke: var(--c3); } .curve.c4 { stroke: var(--c4); } .curve.c5 { stroke: var(--c5); } .curve.c6 { stroke: var(--c6); } .curve.c7 { stroke: var(--c7); }
-.curve.command { stroke: var(--command); stroke-width: 1.3; } .dashed { stroke-dasharray: 6 4; } .dotted { stroke-dasharray: 1.5 3.5; }
+.curve.command { stroke-width: 5; stroke-opacity: 0.32; stroke-linecap: butt; } .curve.command.plain { stroke: var(--command); } .curve.under { stroke-width: 2.4; } .dashed { stroke-dasharray: 6 4; } .dotted { stroke-dasharray: 1.5 3.5; }
 .strip { stroke: none; fill: var(--c0); fill-opacity: 0.16; } .strip.c1 { fill: var(--c1); } .strip.c2 { fill: var(--c2); } .strip.c3 { fill: var(--c3); } .strip.c4 { fill: var(--c4); } .strip.c5 { fill: var(--c5); } .strip.c6 { fill: var(--c6); } .strip.c7 { fill: var(--c7); }
 .phase { fill: transparent; } .phase.offboard { fill: var(--flight); } .phase.take_off, .phase.hold { fill: var(--climb); } .phase.landing { fill: var(--descend); }
 .phase-lane { fill: var(--card); stroke: var(--hair); vector-effect: non-scaling-stroke; } .phase-lane.offboard { fill: var(--flight); } .phase-lane.take_off, .phase-lane.hold { fill: var(--climb); } .phase-lane.landing { fill: var(--descend); }
-.phase-name { font-size: 11px; fill: var(--soft); }
+.phase-name, .mark-name { font-size: 11px; fill: var(--soft); } .mark-name.fault { fill: var(--fault); font-weight: 600; }
 .mark { stroke: var(--soft); stroke-width: 1; stroke-dasharray: 2 3; opacity: 0.7; vector-effect: non-scaling-stroke; } .mark.fault { stroke: var(--fault); stroke-width: 1.6; opacity: 1; stroke-dasharray: none; }
 .place circle { fill: var(--paper); stroke: var(--ink); stroke-width: 1.4; } .place-name { font-size: 11px; font-weight: 700; }
 .cursor { stroke: var(--ink); stroke-width: 1; opacity: 0.6; pointer-events: none; } .reading { font-size: 11.5px; font-variant-numeric: tabular-nums; paint-order: stroke; stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round; pointer-events: none; }

@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kLeft = 62.0;         // px: room for the numbers of the y axis
 constexpr double kRight = 14.0;        // px
-constexpr double kLane = 22.0;         // px: the lane of phases above the first panel
+constexpr double kLetter = 6.9;        // px: width of a letter, on the safe side
+constexpr double kNames = 13.0;        // px: names of marks, topmost
+constexpr double kLane = 35.0;         // px: names and the lane of phases above the first panel
 constexpr double kCaption = 22.0;      // px: title and legend above each panel
 constexpr double kBottom = 40.0;       // px: numbers and name of the time axis
 constexpr double kThinPerPixel = 1.0;  // slices per pixel
@@ -111,7 +113,7 @@ std::string caption(const Panel& panel, const Layout& layout, std::size_t index)
   std::reverse(entries.begin(), entries.end());
   for (const auto& [name, style] : entries) {
     if (name.empty()) continue;
-    x -= 6.3 * static_cast<double>(name.size()) + 4.0;
+    x -= kLetter * static_cast<double>(name.size());
     out += text(x, y, "legend", name);
     out += style.starts_with("strip") ? rectangle(x - 22.0, y - 9.0, 16.0, 10.0, style)
                                       : line(x - 22.0, y - 4.0, x - 6.0, y - 4.0, style);
@@ -130,10 +132,11 @@ std::string grid(const Scale& scale, const Layout& layout) {
   return out;
 }
 
-/// Stretches and marks behind the curves of a panel, in the group that zooms.
-std::string backdrop(const TimeFrame& frame, const Layout& layout, double top, double bottom) {
+/// Stretches and marks behind the curves of a panel, in the group that zooms. Plain: marks only, so that a
+/// strip keeps its colour.
+std::string backdrop(const TimeFrame& frame, const Layout& layout, double top, double bottom, bool plain) {
   std::string out;
-  for (const Stretch& stretch : frame.stretches) {
+  for (const Stretch& stretch : plain ? std::vector<Stretch>() : frame.stretches) {
     const double from = layout.x(stretch.from), to = layout.x(stretch.to);
     out += rectangle(from, top, std::max(0.0, to - from), bottom - top, "phase " + stretch.style);
   }
@@ -152,7 +155,7 @@ std::string draw_panel(const Panel& panel, const Layout& layout, std::size_t ind
                     caption(panel, layout, index);
   const bool is_empty = panel.series.empty() && panel.strips.empty();
   const std::string clipped = "<g clip-path=\"url(#" + clip + ")\"><g class=\"zoom\">";
-  out += clipped + backdrop(frame, layout, scale.top, scale.bottom) + "</g></g>";
+  out += clipped + backdrop(frame, layout, scale.top, scale.bottom, !panel.strips.empty()) + "</g></g>";
   if (is_empty) {
     out += rectangle(kLeft, scale.top, layout.right() - kLeft, scale.bottom - scale.top, "frame");
     return out +
@@ -177,7 +180,8 @@ std::string lane(const TimeFrame& frame, const Layout& layout, const std::string
   std::string out = "<g clip-path=\"url(#" + clip + ")\"><g class=\"zoom\">";
   for (const Stretch& stretch : frame.stretches) {
     const double from = layout.x(stretch.from), to = layout.x(stretch.to);
-    out += "<g>" + rectangle(from, 1.0, std::max(0.0, to - from), 15.0, "phase-lane " + stretch.style) +
+    out += "<g>" +
+           rectangle(from, kNames + 1.0, std::max(0.0, to - from), 15.0, "phase-lane " + stretch.style) +
            "<title>" + escaped(stretch.name) + "</title></g>";
   }
   for (const Mark& mark : frame.marks) {
@@ -188,8 +192,22 @@ std::string lane(const TimeFrame& frame, const Layout& layout, const std::string
   out += "</g></g><g class=\"phase-names\">";
   for (const Stretch& stretch : frame.stretches) {
     const double from = layout.x(stretch.from), to = layout.x(stretch.to);
-    const bool fits = to - from > 6.4 * static_cast<double>(stretch.name.size()) + 8.0;
-    if (fits) out += text((from + to) / 2.0, 12.5, "phase-name", stretch.name);
+    const bool fits = to - from > kLetter * static_cast<double>(stretch.name.size()) + 8.0;
+    if (fits) out += text((from + to) / 2.0, kNames + 12.5, "phase-name", stretch.name);
+  }
+  return out + "</g>";
+}
+
+/// The names of the marks that have room, above the lane.
+std::string mark_names(const TimeFrame& frame, const Layout& layout) {
+  std::string out = "<g class=\"mark-names\">";
+  double free_from = kLeft;
+  for (const Mark& mark : frame.marks) {
+    const double x = layout.x(mark.time);
+    const double width = kLetter * static_cast<double>(mark.label.size());
+    if (mark.label.empty() || x < free_from || x + width > layout.stack.width) continue;
+    out += text(x + 3.0, 9.0, "mark-name " + mark.style, mark.label);
+    free_from = x + width + 6.0;
   }
   return out + "</g>";
 }
@@ -236,7 +254,7 @@ std::string draw(const TimeStack& stack, const TimeFrame& frame) {
                     attribute("data-left", kLeft) + attribute("data-right", layout.right()) +
                     attribute("data-from", layout.time.low) + attribute("data-to", layout.time.high) + ">";
   out += "<title>" + escaped(stack.title) + "</title><defs>" + clip_path(clip, layout) + "</defs>";
-  out += lane(frame, layout, clip) + time_axis(layout);
+  out += mark_names(frame, layout) + lane(frame, layout, clip) + time_axis(layout);
   for (std::size_t i = 0; i < stack.panels.size(); ++i)
     out += draw_panel(stack.panels[i], layout, i, frame, clip);
   return out + "</svg>";

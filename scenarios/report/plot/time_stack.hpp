@@ -45,7 +45,8 @@ struct Stretch {
 /// A moment marked through all panels.
 struct Mark {
   double time = 0.0;
-  std::string name;
+  std::string name;   ///< in full
+  std::string label;  ///< shown above the lane where there is room
   std::string style;
 };
 

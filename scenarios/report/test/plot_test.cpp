@@ -41,7 +41,8 @@ TEST(AxisTest, TicksLieInsideAndAreMultiplesOfTheStep) {
     for (const double span : {1e-3, 0.7, 13.0, 9e4}) {
       const Axis axis = tight_axis({low, low + span, false}, 6);
       ASSERT_FALSE(axis.ticks.empty());
-      EXPECT_LE(axis.ticks.size(), 7u);
+      EXPECT_GE(axis.ticks.size(), 3u);
+      EXPECT_LE(axis.ticks.size(), 13u);
       for (const double tick : axis.ticks) {
         EXPECT_GE(tick, axis.low - axis.step * 1e-6);
         EXPECT_LE(tick, axis.high + axis.step * 1e-6);
@@ -162,7 +163,7 @@ TEST(TimeStackTest, DrawsEachSeriesAndItsTitle) {
   TimeFrame frame;
   frame.range = {0.0, 10.0, false};
   frame.stretches = {{0.0, 10.0, "offboard", "offboard"}};
-  frame.marks = {{5.0, "fault: gust", "fault"}};
+  frame.marks = {{5.0, "fault: gust", "gust", "fault"}};
   const std::string svg = draw(stack, frame);
   EXPECT_NE(svg.find("<title>A &amp; B</title>"), std::string::npos);
   EXPECT_NE(svg.find("data-name=\"truth\""), std::string::npos);

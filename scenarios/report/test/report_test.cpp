@@ -18,7 +18,9 @@ namespace ironbird::scenarios {
 namespace {
 
 std::filesystem::path folder(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / "ironbird_report_test" / name;
+  const testing::TestInfo* test =
+      testing::UnitTest::GetInstance()->current_test_info();  // tests run side by side
+  return std::filesystem::path(testing::TempDir()) / "ironbird_report_test" / test->name() / name;
 }
 
 /// The first mistake in the nesting of tags, or nothing. Knows no empty elements but those closed by "/>".
