@@ -1,5 +1,6 @@
 #include "scenarios/record/ros2_message.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <stdexcept>
@@ -70,9 +71,22 @@ void parse_brackets(std::string_view brackets, std::string_view line, Ros2Field&
   }
 }
 
+/// The name that a comment such as `p_NB_N: [m] position` gives back to the field `p_nb_n`, or the field's
+/// own.
+std::string original_name(std::string_view name, std::string_view comment) {
+  const std::string_view first = comment.substr(0, comment.find(':'));
+  const bool same =
+      std::equal(name.begin(), name.end(), first.begin(), first.end(), [](char legal, char own) {
+        return legal == (own >= 'A' && own <= 'Z' ? static_cast<char>(own - 'A' + 'a') : own);
+      });
+  return std::string(same ? first : name);
+}
+
 /// @return false for a line that is not a field
-bool parse_line(std::string_view line, RawField& out) {
-  line = trimmed(line.substr(0, line.find('#')));
+bool parse_line(std::string_view line, bool ours, RawField& out) {
+  const std::size_t hash = line.find('#');
+  const std::string_view comment = hash == std::string_view::npos ? "" : trimmed(line.substr(hash + 1));
+  line = trimmed(line.substr(0, hash));
   const std::size_t type_end = line.find_first_of(kBlank);
   if (line.empty() || type_end == std::string_view::npos) {
     if (line.empty()) return false;
@@ -83,7 +97,7 @@ bool parse_line(std::string_view line, RawField& out) {
   const std::string_view name = rest.substr(0, rest.find_first_of(" \t="));
   const std::string_view after = trimmed(rest.substr(name.size()));
   if (after.starts_with('=')) return false;
-  out.field.name = name;
+  out.field.name = ours ? original_name(name, comment) : std::string(name);
   if (type.ends_with(']')) {
     const std::size_t bracket = type.find('[');
     if (bracket == std::string_view::npos) throw std::runtime_error("no '[' in '" + std::string(line) + "'");
@@ -111,7 +125,8 @@ std::vector<RawMessage> split(std::string_view name, std::string_view text) {
       continue;
     }
     RawField field;
-    if (parse_line(line, field)) messages.back().fields.push_back(std::move(field));
+    const bool ours = messages.back().name.starts_with("ironbird_msgs/");
+    if (parse_line(line, ours, field)) messages.back().fields.push_back(std::move(field));
   }
   return messages;
 }

@@ -13,6 +13,15 @@ std::string shortest(double value) {
   return {text.data(), result.ptr};
 }
 
+/// ROS allows no capitals in the name of a field.
+std::string legal_name(std::string_view name) {
+  std::string legal(name);
+  for (char& c : legal) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return legal;
+}
+
 }  // namespace
 
 std::size_t Ros2SchemaBuilder::open(std::string_view name, std::string_view type) {
@@ -22,7 +31,7 @@ std::size_t Ros2SchemaBuilder::open(std::string_view name, std::string_view type
     throw std::invalid_argument("message type " + known.name + " would stand for both " + known.type +
                                 " and " + std::string(type));
   }
-  definitions_.push_back({std::string(name), std::string(type), ""});
+  definitions_.push_back({std::string(name), std::string(type), "", {}});
   return definitions_.size() - 1;
 }
 
@@ -34,10 +43,17 @@ std::string Ros2SchemaBuilder::define_standard(std::string_view name, std::strin
 
 void Ros2SchemaBuilder::add_line(std::size_t definition, std::string_view type, std::string_view name,
                                  const std::string& comment) {
-  std::string& body = definitions_[definition].body;
-  body.append(type).append(" ").append(name);
-  if (!comment.empty()) body.append("  # ").append(comment);
-  body += '\n';
+  Definition& message = definitions_[definition];
+  const std::string legal = legal_name(name);
+  if (std::find(message.fields.begin(), message.fields.end(), legal) != message.fields.end()) {
+    throw std::invalid_argument("field " + std::string(name) + " of " + message.name +
+                                " has the name of another one but for capitals");
+  }
+  message.fields.push_back(legal);
+  message.body.append(type).append(" ").append(legal);
+  const std::string original = legal == name ? "" : std::string(name) + (comment.empty() ? ":" : ": ");
+  if (!original.empty() || !comment.empty()) message.body.append("  # ").append(original).append(comment);
+  message.body += '\n';
 }
 
 void Ros2SchemaBuilder::add_constant(std::size_t definition, std::string_view prefix, std::string_view name,

@@ -40,6 +40,7 @@ class Ros2SchemaBuilder {
     std::string name;  ///< `ironbird_msgs/StateEstimate`
     std::string type;  ///< the C++ type, to find two types of one name
     std::string body;
+    std::vector<std::string> fields;
   };
 
   struct Member {
@@ -77,6 +78,9 @@ class Ros2SchemaBuilder {
 };
 
 /// The message type that CdrEncoder writes T as.
+///
+/// ROS allows only small letters in names of fields, and its tools refuse others: `p_NB_N` becomes `p_nb_n`,
+/// and the comment begins with `p_NB_N:`, from which our own reader takes the name back.
 /// @param suggestion  name for a type that has none of its own, such as a variant: `setpoint` makes
 /// `Setpoint`
 template <class T>

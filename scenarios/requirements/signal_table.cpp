@@ -1,7 +1,6 @@
 #include "scenarios/requirements/signal_table.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <stdexcept>
 
@@ -38,18 +37,6 @@ double read_angle(const void* address) {
 }
 
 }  // namespace
-
-std::string alternative_name(std::string_view type_name) {
-  const std::size_t qualification = type_name.rfind("::");
-  if (qualification != std::string_view::npos) type_name.remove_prefix(qualification + 2);
-  std::string out;
-  for (const char letter : type_name) {
-    const bool upper = std::isupper(static_cast<unsigned char>(letter)) != 0;
-    if (upper && !out.empty()) out += '_';
-    out += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  }
-  return out;
-}
 
 double SignalLeaf::value() const {
   return present() ? read(address) : std::numeric_limits<double>::quiet_NaN();

@@ -16,19 +16,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "scenarios/record/type_name.hpp"
+
 namespace ironbird::scenarios {
-
-/// `AngleHeadingRateThrust` becomes `angle_heading_rate_thrust`; a qualification before `::` is dropped.
-std::string alternative_name(std::string_view type_name);
-
-/// The name of a struct in snake_case, without its namespace.
-template <class Struct>
-std::string alternative_name_of() {
-  std::string_view text = __PRETTY_FUNCTION__;
-  const std::string_view mark = "Struct = ";
-  text.remove_prefix(text.find(mark) + mark.size());
-  return alternative_name(text.substr(0, text.find_first_of(";]")));
-}
 
 /// One number inside a live struct: where it lies and how it is read.
 struct SignalLeaf {
@@ -237,7 +227,7 @@ struct SignalTable::Walk {
   template <class... Alternatives>
   void add_compound(const std::string& at, const std::variant<Alternatives...>& member, const char*,
                     const char* meaning) const {
-    std::vector<std::string> names{alternative_name_of<Alternatives>()...};
+    std::vector<std::string> names{snake_case(short_type_name<Alternatives>())...};
     std::vector<double> numbers;
     for (std::size_t i = 0; i < names.size(); ++i) numbers.push_back(static_cast<double>(i));
     leaf(at, live_address(member), &read_index<std::variant<Alternatives...>>, "1", meaning, names, numbers);

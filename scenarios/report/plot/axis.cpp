@@ -40,13 +40,18 @@ double nice_step(double span, int most) {
 }
 
 Axis tight_axis(const Range& range, int most_ticks) {
+  constexpr std::size_t kFewestTicks = 3;
   Axis axis{range.low, range.high, 1.0, {}};
   if (range.empty || !(range.high > range.low)) axis.high = axis.low + 1.0;
-  axis.step = nice_step(axis.high - axis.low, most_ticks);
-  const double slack = axis.step * 1e-6;
-  const double first = std::ceil((axis.low - slack) / axis.step);
-  const double last = std::floor((axis.high + slack) / axis.step);
-  for (double i = first; i <= last; i += 1.0) axis.ticks.push_back(i * axis.step);
+  const double span = axis.high - axis.low;
+  for (int parts = most_ticks; axis.ticks.size() < kFewestTicks; parts *= 2) {
+    axis.step = nice_step(span, parts);
+    axis.ticks.clear();
+    const double slack = axis.step * 1e-6;
+    const double first = std::ceil((axis.low - slack) / axis.step);
+    const double last = std::floor((axis.high + slack) / axis.step);
+    for (double i = first; i <= last; i += 1.0) axis.ticks.push_back(i * axis.step);
+  }
   return axis;
 }
 

@@ -30,9 +30,11 @@ struct Range {
 double nice_step(double span, int most);
 
 /// An axis over exactly `range`, with ticks at the multiples of a nice step inside it.
+/// @param most_ticks  parts to divide it into at most, >= 1; more when fewer than three ticks would result
 Axis tight_axis(const Range& range, int most_ticks);
 
-/// An axis over `range` with a little air at both ends; a range without width is widened to at least `least_span`.
+/// An axis over `range` with a little air at both ends; a range without width is widened to at least
+/// `least_span`.
 Axis roomy_axis(const Range& range, int most_ticks, double least_span);
 
 }  // namespace ironbird::scenarios::plot

@@ -11,8 +11,8 @@ struct Point {
 };
 
 /// Thins a curve to what can be seen: of each of `bins` equal slices of [low, high] the first, the least, the
-/// greatest and the last point stay, in order. Points outside the range are dropped, but for the nearest one on
-/// each side. A y that is no number stays as a gap.
+/// greatest and the last point stay, in order. Points outside the range are dropped, but for the nearest one
+/// on each side. A y that is no number stays as a gap.
 /// @param x  rising
 std::vector<Point> thin(const std::vector<double>& x, const std::vector<double>& y, double low, double high,
                         int bins);

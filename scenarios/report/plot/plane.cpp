@@ -10,12 +10,12 @@ namespace ironbird::scenarios::plot {
 
 namespace {
 
-constexpr double kLeft = 58.0;     // px: numbers and name of the y axis
-constexpr double kRight = 16.0;    // px
-constexpr double kTop = 30.0;      // px: legend
-constexpr double kBottom = 46.0;   // px: numbers and name of the x axis
-constexpr double kNearer = 0.35;   // px: points closer than this to the one before are not drawn
-constexpr double kLeastSpan = 1.0; // in the plane's unit
+constexpr double kLeft = 58.0;      // px: numbers and name of the y axis
+constexpr double kRight = 16.0;     // px
+constexpr double kTop = 30.0;       // px: legend
+constexpr double kBottom = 46.0;    // px: numbers and name of the x axis
+constexpr double kNearer = 0.35;    // px: points closer than this to the one before are not drawn
+constexpr double kLeastSpan = 1.0;  // in the plane's unit
 
 /// Two axes of one scale, centred on what is drawn.
 struct Frame {
@@ -61,7 +61,8 @@ Frame frame_of(const Plane& plane) {
   const double step = coarse.step;
   for (Axis* axis : {&frame.x, &frame.y}) {
     if (axis->step == step) continue;
-    *axis = tight_axis({axis->low, axis->high, false}, std::max(1, static_cast<int>((axis->high - axis->low) / step)));
+    *axis = tight_axis({axis->low, axis->high, false},
+                       std::max(1, static_cast<int>((axis->high - axis->low) / step)));
   }
   return frame;
 }
@@ -71,14 +72,17 @@ std::string grid(const Frame& frame, const Plane& plane) {
       rectangle(frame.left, frame.top, frame.right - frame.left, frame.bottom - frame.top, "frame");
   for (const double tick : frame.x.ticks) {
     const double x = frame.pixel({tick, frame.y.low}).x;
-    out += line(x, frame.top, x, frame.bottom, "grid") + text(x, frame.bottom + 16.0, "number x", frame.x.label(tick));
+    out += line(x, frame.top, x, frame.bottom, "grid") +
+           text(x, frame.bottom + 16.0, "number x", frame.x.label(tick));
   }
   for (const double tick : frame.y.ticks) {
     const double y = frame.pixel({frame.x.low, tick}).y;
-    out += line(frame.left, y, frame.right, y, "grid") + text(frame.left - 7.0, y + 4.0, "number y", frame.y.label(tick));
+    out += line(frame.left, y, frame.right, y, "grid") +
+           text(frame.left - 7.0, y + 4.0, "number y", frame.y.label(tick));
   }
   const double middle = (frame.top + frame.bottom) / 2.0;
-  out += text((frame.left + frame.right) / 2.0, frame.bottom + 36.0, "axis-name", plane.x_name + "  " + plane.unit);
+  out += text((frame.left + frame.right) / 2.0, frame.bottom + 36.0, "axis-name",
+              plane.x_name + "  " + plane.unit);
   out += "<text class=\"axis-name\" transform=\"translate(14 " + coordinate(middle) + ") rotate(-90)\">" +
          escaped(plane.y_name + "  " + plane.unit) + "</text>";
   return out;
@@ -124,8 +128,8 @@ std::string draw(const Plane& plane) {
   }
   for (const Place& place : plane.places) {
     const Point at = frame.pixel(place.point);
-    out += "<g class=\"place\"><circle cx=\"" + coordinate(at.x) + "\" cy=\"" + coordinate(at.y) + "\" r=\"9\"/>" +
-           text(at.x, at.y + 4.0, "place-name", place.name) + "</g>";
+    out += "<g class=\"place\"><circle cx=\"" + coordinate(at.x) + "\" cy=\"" + coordinate(at.y) +
+           "\" r=\"9\"/>" + text(at.x, at.y + 4.0, "place-name", place.name) + "</g>";
   }
   return out + "</svg>";
 }

@@ -65,13 +65,13 @@ std::string path_data(const std::vector<Point>& points) {
 }
 
 std::string line(double x1, double y1, double x2, double y2, std::string_view css_class) {
-  return "<line" + attribute("class", css_class) + " x1=\"" + coordinate(x1) + "\" y1=\"" + coordinate(y1) + "\" x2=\"" +
-         coordinate(x2) + "\" y2=\"" + coordinate(y2) + "\"/>";
+  return "<line" + attribute("class", css_class) + " x1=\"" + coordinate(x1) + "\" y1=\"" + coordinate(y1) +
+         "\" x2=\"" + coordinate(x2) + "\" y2=\"" + coordinate(y2) + "\"/>";
 }
 
 std::string text(double x, double y, std::string_view css_class, std::string_view content) {
-  return "<text" + attribute("class", css_class) + " x=\"" + coordinate(x) + "\" y=\"" + coordinate(y) + "\">" +
-         escaped(content) + "</text>";
+  return "<text" + attribute("class", css_class) + " x=\"" + coordinate(x) + "\" y=\"" + coordinate(y) +
+         "\">" + escaped(content) + "</text>";
 }
 
 std::string rectangle(double x, double y, double width, double height, std::string_view css_class) {

@@ -9,13 +9,15 @@ namespace ironbird::scenarios::plot {
 
 namespace {
 
-constexpr double kLeft = 62.0;        // px: room for the numbers of the y axis
-constexpr double kRight = 14.0;       // px
-constexpr double kLane = 22.0;        // px: the lane of phases above the first panel
-constexpr double kCaption = 22.0;     // px: title and legend above each panel
-constexpr double kBottom = 40.0;      // px: numbers and name of the time axis
-constexpr double kThinPerPixel = 1.0; // slices per pixel
-constexpr double kTolerance = 0.12;   // px: what the eye does not see
+constexpr double kLeft = 62.0;         // px: room for the numbers of the y axis
+constexpr double kRight = 14.0;        // px
+constexpr double kLetter = 6.9;        // px: width of a letter, on the safe side
+constexpr double kNames = 13.0;        // px: names of marks, topmost
+constexpr double kLane = 35.0;         // px: names and the lane of phases above the first panel
+constexpr double kCaption = 22.0;      // px: title and legend above each panel
+constexpr double kBottom = 40.0;       // px: numbers and name of the time axis
+constexpr double kThinPerPixel = 1.0;  // slices per pixel
+constexpr double kTolerance = 0.12;    // px: what the eye does not see
 
 /// Where a stack's parts lie, px.
 struct Layout {
@@ -47,7 +49,8 @@ Axis value_axis(const Panel& panel, double panel_height) {
   for (const Strip& strip : panel.strips) {
     // A bound that is still wide open must not flatten the curve inside it.
     Range inner = range;
-    const double reach = std::max(4.0 * std::max(std::abs(inner.low), std::abs(inner.high)), panel.least_span);
+    const double reach =
+        std::max(4.0 * std::max(std::abs(inner.low), std::abs(inner.high)), panel.least_span);
     for (const double high : strip.high) range.include(std::clamp(high, -reach, reach));
     for (const double low : strip.low) range.include(std::clamp(low, -reach, reach));
   }
@@ -60,8 +63,8 @@ std::vector<Point> to_pixels(std::vector<Point> points, const Layout& layout, co
 }
 
 /// The curve in pixels, thinned; runs between gaps are straightened on their own.
-std::string curve_data(const std::vector<double>& time, const std::vector<double>& value, const Layout& layout,
-                       const Scale& scale) {
+std::string curve_data(const std::vector<double>& time, const std::vector<double>& value,
+                       const Layout& layout, const Scale& scale) {
   const int bins = static_cast<int>((layout.right() - kLeft) * kThinPerPixel);
   const std::vector<Point> points =
       to_pixels(thin(time, value, layout.time.low, layout.time.high, bins), layout, scale);
@@ -81,10 +84,12 @@ std::string curve_data(const std::vector<double>& time, const std::vector<double
 std::string strip_data(const Strip& strip, const Layout& layout, const Scale& scale) {
   const int bins = static_cast<int>((layout.right() - kLeft) / 4.0);
   std::vector<Point> edge, back;
-  for (const Point& p : to_pixels(thin(strip.time, strip.high, layout.time.low, layout.time.high, bins), layout, scale)) {
+  for (const Point& p :
+       to_pixels(thin(strip.time, strip.high, layout.time.low, layout.time.high, bins), layout, scale)) {
     if (std::isfinite(p.y)) edge.push_back({p.x, std::clamp(p.y, scale.top, scale.bottom)});
   }
-  for (const Point& p : to_pixels(thin(strip.time, strip.low, layout.time.low, layout.time.high, bins), layout, scale)) {
+  for (const Point& p :
+       to_pixels(thin(strip.time, strip.low, layout.time.low, layout.time.high, bins), layout, scale)) {
     if (std::isfinite(p.y)) back.push_back({p.x, std::clamp(p.y, scale.top, scale.bottom)});
   }
   if (edge.size() < 2 || back.size() < 2) return "";
@@ -97,8 +102,8 @@ std::string strip_data(const Strip& strip, const Layout& layout, const Scale& sc
 /// Title, unit and legend of a panel.
 std::string caption(const Panel& panel, const Layout& layout, std::size_t index) {
   const double y = layout.top(index) - 7.0;
-  std::string out = "<text class=\"panel-title\" x=\"" + coordinate(kLeft) + "\" y=\"" + coordinate(y) + "\">" +
-                    escaped(panel.title);
+  std::string out = "<text class=\"panel-title\" x=\"" + coordinate(kLeft) + "\" y=\"" + coordinate(y) +
+                    "\">" + escaped(panel.title);
   if (!panel.unit.empty()) out += "<tspan class=\"unit\">  " + escaped(panel.unit) + "</tspan>";
   out += "</text>";
   double x = layout.right();
@@ -108,7 +113,7 @@ std::string caption(const Panel& panel, const Layout& layout, std::size_t index)
   std::reverse(entries.begin(), entries.end());
   for (const auto& [name, style] : entries) {
     if (name.empty()) continue;
-    x -= 6.3 * static_cast<double>(name.size()) + 4.0;
+    x -= kLetter * static_cast<double>(name.size());
     out += text(x, y, "legend", name);
     out += style.starts_with("strip") ? rectangle(x - 22.0, y - 9.0, 16.0, 10.0, style)
                                       : line(x - 22.0, y - 4.0, x - 6.0, y - 4.0, style);
@@ -127,10 +132,11 @@ std::string grid(const Scale& scale, const Layout& layout) {
   return out;
 }
 
-/// Stretches and marks behind the curves of a panel, in the group that zooms.
-std::string backdrop(const TimeFrame& frame, const Layout& layout, double top, double bottom) {
+/// Stretches and marks behind the curves of a panel, in the group that zooms. Plain: marks only, so that a
+/// strip keeps its colour.
+std::string backdrop(const TimeFrame& frame, const Layout& layout, double top, double bottom, bool plain) {
   std::string out;
-  for (const Stretch& stretch : frame.stretches) {
+  for (const Stretch& stretch : plain ? std::vector<Stretch>() : frame.stretches) {
     const double from = layout.x(stretch.from), to = layout.x(stretch.to);
     out += rectangle(from, top, std::max(0.0, to - from), bottom - top, "phase " + stretch.style);
   }
@@ -143,24 +149,28 @@ std::string backdrop(const TimeFrame& frame, const Layout& layout, double top, d
 std::string draw_panel(const Panel& panel, const Layout& layout, std::size_t index, const TimeFrame& frame,
                        const std::string& clip) {
   const Scale scale{value_axis(panel, layout.stack.panel_height), layout.top(index), layout.bottom(index)};
-  std::string out = "<g class=\"panel\"" + attribute("data-top", scale.top) + attribute("data-bottom", scale.bottom) +
-                    attribute("data-low", scale.axis.low) + attribute("data-high", scale.axis.high) +
-                    attribute("data-unit", panel.unit) + ">" + caption(panel, layout, index);
+  std::string out = "<g class=\"panel\"" + attribute("data-top", scale.top) +
+                    attribute("data-bottom", scale.bottom) + attribute("data-low", scale.axis.low) +
+                    attribute("data-high", scale.axis.high) + attribute("data-unit", panel.unit) + ">" +
+                    caption(panel, layout, index);
   const bool is_empty = panel.series.empty() && panel.strips.empty();
   const std::string clipped = "<g clip-path=\"url(#" + clip + ")\"><g class=\"zoom\">";
-  out += clipped + backdrop(frame, layout, scale.top, scale.bottom) + "</g></g>";
+  out += clipped + backdrop(frame, layout, scale.top, scale.bottom, !panel.strips.empty()) + "</g></g>";
   if (is_empty) {
     out += rectangle(kLeft, scale.top, layout.right() - kLeft, scale.bottom - scale.top, "frame");
-    return out + text((kLeft + layout.right()) / 2.0, (scale.top + scale.bottom) / 2.0 + 4.0, "missing", panel.missing) +
+    return out +
+           text((kLeft + layout.right()) / 2.0, (scale.top + scale.bottom) / 2.0 + 4.0, "missing",
+                panel.missing) +
            "</g>";
   }
   out += grid(scale, layout) + clipped;
   for (const Strip& strip : panel.strips) {
-    out += "<path class=\"strip " + escaped(strip.style) + "\" d=\"" + strip_data(strip, layout, scale) + "\"/>";
+    out +=
+        "<path class=\"strip " + escaped(strip.style) + "\" d=\"" + strip_data(strip, layout, scale) + "\"/>";
   }
   for (const Series& series : panel.series) {
-    out += "<path class=\"curve " + escaped(series.style) + "\"" + attribute("data-name", series.name) + " d=\"" +
-           curve_data(series.time, series.value, layout, scale) + "\"/>";
+    out += "<path class=\"curve " + escaped(series.style) + "\"" + attribute("data-name", series.name) +
+           " d=\"" + curve_data(series.time, series.value, layout, scale) + "\"/>";
   }
   return out + "</g></g></g>";
 }
@@ -170,18 +180,34 @@ std::string lane(const TimeFrame& frame, const Layout& layout, const std::string
   std::string out = "<g clip-path=\"url(#" + clip + ")\"><g class=\"zoom\">";
   for (const Stretch& stretch : frame.stretches) {
     const double from = layout.x(stretch.from), to = layout.x(stretch.to);
-    out += "<g>" + rectangle(from, 1.0, std::max(0.0, to - from), 15.0, "phase-lane " + stretch.style) + "<title>" +
-           escaped(stretch.name) + "</title></g>";
+    out += "<g>" +
+           rectangle(from, kNames + 1.0, std::max(0.0, to - from), 15.0, "phase-lane " + stretch.style) +
+           "<title>" + escaped(stretch.name) + "</title></g>";
   }
   for (const Mark& mark : frame.marks) {
     const double x = layout.x(mark.time);
-    out += "<g>" + line(x, 0.0, x, kLane, "mark " + mark.style) + "<title>" + escaped(mark.name) + "</title></g>";
+    out += "<g>" + line(x, 0.0, x, kLane, "mark " + mark.style) + "<title>" + escaped(mark.name) +
+           "</title></g>";
   }
   out += "</g></g><g class=\"phase-names\">";
   for (const Stretch& stretch : frame.stretches) {
     const double from = layout.x(stretch.from), to = layout.x(stretch.to);
-    const bool fits = to - from > 6.4 * static_cast<double>(stretch.name.size()) + 8.0;
-    if (fits) out += text((from + to) / 2.0, 12.5, "phase-name", stretch.name);
+    const bool fits = to - from > kLetter * static_cast<double>(stretch.name.size()) + 8.0;
+    if (fits) out += text((from + to) / 2.0, kNames + 12.5, "phase-name", stretch.name);
+  }
+  return out + "</g>";
+}
+
+/// The names of the marks that have room, above the lane.
+std::string mark_names(const TimeFrame& frame, const Layout& layout) {
+  std::string out = "<g class=\"mark-names\">";
+  double free_from = kLeft;
+  for (const Mark& mark : frame.marks) {
+    const double x = layout.x(mark.time);
+    const double width = kLetter * static_cast<double>(mark.label.size());
+    if (mark.label.empty() || x < free_from || x + width > layout.stack.width) continue;
+    out += text(x + 3.0, 9.0, "mark-name " + mark.style, mark.label);
+    free_from = x + width + 6.0;
   }
   return out + "</g>";
 }
@@ -201,7 +227,8 @@ std::string time_axis(const Layout& layout) {
 
 std::string clip_path(const std::string& id, const Layout& layout) {
   return "<clipPath id=\"" + id + "\"><rect x=\"" + coordinate(kLeft) + "\" y=\"0\" width=\"" +
-         coordinate(layout.right() - kLeft) + "\" height=\"" + coordinate(layout.height()) + "\"/></clipPath>";
+         coordinate(layout.right() - kLeft) + "\" height=\"" + coordinate(layout.height()) +
+         "\"/></clipPath>";
 }
 
 /// A name that is unique on a page as long as titles are.
@@ -227,8 +254,9 @@ std::string draw(const TimeStack& stack, const TimeFrame& frame) {
                     attribute("data-left", kLeft) + attribute("data-right", layout.right()) +
                     attribute("data-from", layout.time.low) + attribute("data-to", layout.time.high) + ">";
   out += "<title>" + escaped(stack.title) + "</title><defs>" + clip_path(clip, layout) + "</defs>";
-  out += lane(frame, layout, clip) + time_axis(layout);
-  for (std::size_t i = 0; i < stack.panels.size(); ++i) out += draw_panel(stack.panels[i], layout, i, frame, clip);
+  out += mark_names(frame, layout) + lane(frame, layout, clip) + time_axis(layout);
+  for (std::size_t i = 0; i < stack.panels.size(); ++i)
+    out += draw_panel(stack.panels[i], layout, i, frame, clip);
   return out + "</svg>";
 }
 

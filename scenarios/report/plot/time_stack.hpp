@@ -45,7 +45,8 @@ struct Stretch {
 /// A moment marked through all panels.
 struct Mark {
   double time = 0.0;
-  std::string name;
+  std::string name;   ///< in full
+  std::string label;  ///< shown above the lane where there is room
   std::string style;
 };
 
@@ -64,8 +65,8 @@ struct TimeStack {
   double panel_height = 120.0;  ///< px
 };
 
-/// The drawing as an SVG element with an accessible title. It reads without a script; the page's script finds the
-/// ranges in its data attributes and adds the cursor and the zoom.
+/// The drawing as an SVG element with an accessible title. It reads without a script; the page's script finds
+/// the ranges in its data attributes and adds the cursor and the zoom.
 std::string draw(const TimeStack& stack, const TimeFrame& frame);
 
 }  // namespace ironbird::scenarios::plot
