@@ -7,7 +7,9 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace ironbird::simulator {
@@ -50,7 +52,9 @@ class BoundsCheck {
                              double upper) {
     if (std::isfinite(value) && value >= lower && value <= upper) return;
     std::ostringstream text;
-    text << path << " = " << value << ' ' << unit << ", must be ";
+    text << path << " = " << value;
+    if (std::string_view(unit) != "1") text << ' ' << unit;
+    text << ", must be ";
     if (std::isfinite(lower) || std::isfinite(upper)) {
       text << "between " << lower << " and " << upper;
     } else {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <thread>
 
 #include "simulator/plant/test/forces.hpp"
 #include "simulator/plant/test/plants.hpp"
@@ -65,6 +67,19 @@ TYPED_TEST(PlantContractTest, DoesNotMindOthersOfItsKind) {
     other->step(kStep, push);
   }
   EXPECT_TRUE(same(this->plant_->state(), alone));
+}
+
+TYPED_TEST(PlantContractTest, TouchesTheGroundTheSameInAnyThread) {
+  const RigidBodyState alone = hop(*this->plant_, 1500);
+  RigidBodyState ends[2];
+  const std::unique_ptr<Plant> plants[2] = {TypeParam::make(reference_multirotor(), FieldParams{}),
+                                            TypeParam::make(reference_multirotor(), FieldParams{})};
+  std::thread first([&] { ends[0] = hop(*plants[0], 1500); });
+  std::thread second([&] { ends[1] = hop(*plants[1], 1500); });
+  first.join();
+  second.join();
+  EXPECT_TRUE(same(ends[0], alone));
+  EXPECT_TRUE(same(ends[1], alone));
 }
 
 TYPED_TEST(PlantContractTest, KeepsItsStateWhenTheMassChanges) {
