@@ -93,7 +93,7 @@ void BareLeanMujoco(benchmark::State& timing) {
   step_bare(
       timing,
       R"(<mujoco><option timestep="0.0025" integrator="RK4"><flag equality="disable" frictionloss="disable"
-    limit="disable" contact="disable" passive="disable" clampctrl="disable" sensor="disable"/></option><worldbody>
+    limit="disable" constraint="disable" contact="disable" passive="disable" clampctrl="disable" sensor="disable"/></option><worldbody>
     <body><freejoint/><inertial pos="0 0 0" mass="3.5" diaginertia="0.08 0.08 0.12"/></body></worldbody></mujoco>)");
 }
 

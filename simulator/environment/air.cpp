@@ -31,20 +31,17 @@ double Air::pressure(double altitude_above_home) const {
   return params_.sea_level_pressure * std::pow(ratio, kExponent);
 }
 
-double Air::density(double altitude_above_home) const {
-  if (params_.constant_density) return params_.density;
+DensityProfile Air::density_profile(double altitude_above_home) const {
+  if (params_.constant_density) return {params_.density, 0.0};
   const double T = temperature(altitude_above_home);
-  const double p = params_.sea_level_pressure * std::pow(T / params_.sea_level_temperature, kExponent);
-  return p / (kGasConstant * T);
-}
-
-double Air::density_gradient(double altitude_above_home) const {
+  const double ratio = T / params_.sea_level_temperature;
+  const double density = params_.sea_level_pressure * std::pow(ratio, kExponent) / (kGasConstant * T);
   const double altitude = home_altitude_ + altitude_above_home;
-  if (params_.constant_density || geopotential(altitude) >= kTropopause) return 0.0;
-  // rho is proportional to T^(n - 1) and T falls linearly with the geopotential height H.
+  if (geopotential(altitude) >= kTropopause) return {density, 0.0};
+  // The density is proportional to T^(n - 1), and T falls linearly with the geopotential height.
   const double shrink = kEarthRadius / (kEarthRadius + altitude);
   const double dT_dh = -kLapseRate * shrink * shrink;
-  return density(altitude_above_home) * (kExponent - 1.0) * dT_dh / temperature(altitude_above_home);
+  return {density, density * (kExponent - 1.0) * dT_dh / T};
 }
 
 }  // namespace ironbird::simulator

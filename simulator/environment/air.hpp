@@ -21,6 +21,12 @@ struct AirParams {
   }
 };
 
+/// Density at one height and how it changes with height.
+struct DensityProfile {
+  double density = 0.0;   ///< kg/m^3
+  double gradient = 0.0;  ///< kg/m^4
+};
+
 /// The troposphere of the U.S. Standard Atmosphere 1976, shifted to the day's sea-level pressure and
 /// temperature.
 ///
@@ -31,11 +37,11 @@ class Air {
   /// @param home_altitude  of the local origin, m above mean sea level
   Air(const AirParams& params, double home_altitude);
 
-  /// At a height above the local origin, m: K, Pa, kg/m^3 and kg/m^4.
+  /// At a height above the local origin, m: K, Pa and kg/m^3.
   double temperature(double altitude_above_home) const;
   double pressure(double altitude_above_home) const;
-  double density(double altitude_above_home) const;
-  double density_gradient(double altitude_above_home) const;
+  double density(double altitude_above_home) const { return density_profile(altitude_above_home).density; }
+  DensityProfile density_profile(double altitude_above_home) const;
 
  private:
   AirParams params_;

@@ -101,9 +101,9 @@ class Environment {
 
   /// kg/m^3.
   double air_density(double altitude_above_home) const { return air_.density(altitude_above_home); }
-  /// Change of density with height, kg/m^4.
-  double air_density_gradient(double altitude_above_home) const {
-    return air_.density_gradient(altitude_above_home);
+  /// Density and its change with height.
+  DensityProfile air_density_profile(double altitude_above_home) const {
+    return air_.density_profile(altitude_above_home);
   }
   /// Static pressure, Pa.
   double pressure(double altitude_above_home) const { return air_.pressure(altitude_above_home); }

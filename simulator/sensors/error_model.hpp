@@ -123,7 +123,7 @@ struct ScalarErrorParams : AxisErrorParams {
   }
 };
 
-/// What the errors of a three-axis sensor have beyond those of its axes.
+/// The errors of three axes: those of each, and those of the triad.
 struct TriadErrorParams : AxisErrorParams {
   Vector3 bias = Vector3::Zero();
   Vector3 scale = Vector3::Zero();
@@ -132,13 +132,9 @@ struct TriadErrorParams : AxisErrorParams {
   double misalignment_sigma = 0.0;
   Vector3 decaying_bias = Vector3::Zero();
   double decaying_bias_time_constant = 400.0;
-};
 
-/// The errors of a sensor of three axes.
-template <class Units>
-struct VectorErrorParams : TriadErrorParams {
-  template <class Self, class Visit>
-  static void describe(Self& self, Visit&& visit) {
+  template <class Units, class Self, class Visit>
+  static void describe_in(Self& self, Visit&& visit) {
     visit("bias", self.bias, Units::kValue, "constant bias");
     visit("scale", self.scale, "1", "relative error of the scale, per axis", -1.0, 1.0);
     visit("misalignment", self.misalignment, "rad", "turn of the sensor's axes, rotation vector", -1.0, 1.0);
@@ -150,6 +146,15 @@ struct VectorErrorParams : TriadErrorParams {
     visit("decaying_bias_time_constant", self.decaying_bias_time_constant, "s",
           "how long the decaying bias lasts", 1e-6, 1e9);
     AxisErrorParams::describe_in<Units>(self, visit);
+  }
+};
+
+/// The errors of a sensor of three axes.
+template <class Units>
+struct VectorErrorParams : TriadErrorParams {
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    TriadErrorParams::describe_in<Units>(self, visit);
   }
 };
 

@@ -46,8 +46,8 @@ struct ImuParams {
 /// Specific force and angular velocity at the sensor, in its own axes.
 ///
 /// f_S = f_cm + w_dot x r + w x (w x r) with r from the centre of mass to the sensor. Rotor vibration is
-/// white: the amplitudes of unbalanced rotors grow with the square of speed and add in quadrature. It does
-/// not model the filters of the chip.
+/// white: the amplitudes of unbalanced rotors grow with the square of speed and add in quadrature. Force
+/// and angular acceleration are means over the last tick. It does not model the filters of the chip.
 class Imu {
  public:
   using Reading = ImuReading;

@@ -60,8 +60,7 @@ Forces Vehicle::evaluate(const RigidBodyState& state, const RotorSpeeds& rotors,
 
 void Vehicle::remember_density(double height) {
   density_height_ = height;
-  density_ = environment_->air_density(height);
-  density_gradient_ = environment_->air_density_gradient(height);
+  density_ = environment_->air_density_profile(height);
 }
 
 Vehicle::Flow Vehicle::flow_at(const RigidBodyState& state) const {
@@ -69,7 +68,7 @@ Vehicle::Flow Vehicle::flow_at(const RigidBodyState& state) const {
   const Matrix3 R_NB = state.q_NB.toRotationMatrix();
   Flow flow;
   flow.V_a_B = R_NB.transpose() * (state.v_NB_N - environment_->wind_N());
-  flow.density = density_ + density_gradient_ * (height - density_height_);
+  flow.density = density_.density + density_.gradient * (height - density_height_);
   flow.inflow = rotor_.inflow(-flow.V_a_B.z());
   flow.gain = thrust_gain(height);
   return flow;

@@ -101,8 +101,7 @@ class Vehicle : public ForceModel {
   double drag_area_ = 0.0;  // CD A/2
   double voltage_ = 0.0;
   double current_ = 0.0;
-  double density_ = 0.0;
-  double density_gradient_ = 0.0;
+  DensityProfile density_;  // at the start of the step
   double density_height_ = 0.0;
 };
 

@@ -37,11 +37,11 @@ INSTANTIATE_TEST_SUITE_P(Altitudes, StandardAtmosphereTest,
 
 TEST(AirTest, HasTheGradientOfItsDensity) {
   const Air air(AirParams{}, 1387.0);
-  constexpr double kHalf = 1.0;         // m
+  constexpr double kHalf = 1.0;          // m
   constexpr double kDifference = 1e-11;  // kg/m^4, of 1e-4: third derivative of the density, rounding
   for (const double height : {-50.0, 0.0, 120.0, 3000.0}) {
     const double numeric = (air.density(height + kHalf) - air.density(height - kHalf)) / (2.0 * kHalf);
-    EXPECT_NEAR(air.density_gradient(height), numeric, kDifference);
+    EXPECT_NEAR(air.density_profile(height).gradient, numeric, kDifference);
   }
 }
 
@@ -60,14 +60,14 @@ TEST(AirTest, CanBeTheSameEverywhere) {
   const Air air(AirParams{.constant_density = true, .density = 1.074}, 1387.0);
   EXPECT_EQ(air.density(0.0), 1.074);
   EXPECT_EQ(air.density(500.0), 1.074);
-  EXPECT_EQ(air.density_gradient(500.0), 0.0);
+  EXPECT_EQ(air.density_profile(500.0).gradient, 0.0);
   EXPECT_LT(air.pressure(500.0), air.pressure(0.0));
 }
 
 TEST(AirTest, HoldsTheTropopausesValuesAboveIt) {
   const Air air(AirParams{}, 0.0);
   EXPECT_EQ(air.density(12000.0), air.density(13000.0));
-  EXPECT_EQ(air.density_gradient(12000.0), 0.0);
+  EXPECT_EQ(air.density_profile(12000.0).gradient, 0.0);
 }
 
 TEST(AirTest, IsThinnerOnAHotDay) {
