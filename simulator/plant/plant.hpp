@@ -34,6 +34,10 @@ class ForceModel {
   /// @param rotors   rotor speeds of the stage, rad/s
   /// @param offset   time of the stage after the start of the step, s
   virtual Forces evaluate(const RigidBodyState& state, const RotorSpeeds& rotors, double offset) = 0;
+
+  /// Called at the end of every step: puts in the rotor speeds that are no states because they follow from
+  /// the rest at once.
+  virtual void settle(const RigidBodyState&, RotorSpeeds&) {}
 };
 
 /// Integrates one free rigid body, and the rotor speeds with it, against the ground and obstacles. NED, FRD,
@@ -48,6 +52,7 @@ class Plant {
   /// @param mass     of the vehicle; positive, with a positive-definite inertia that obeys the triangle
   /// inequality
   /// @param gravity  m/s^2, along +Nz
+  /// Keeps the state: a payload may be dropped in flight.
   virtual void configure(const MassProperties& mass, double gravity) = 0;
 
   /// Sets the state and forgets everything about the past.

@@ -1,0 +1,36 @@
+#include "hil_bridge/virtual_fcu/battery_monitor.hpp"
+
+namespace ironbird::hil_bridge::virtual_fcu {
+
+namespace {
+
+constexpr float kBootLowPass = 0.995F;
+
+}  // namespace
+
+void BatteryMonitor::start(const ParameterStore& parameters) {
+  voltage_ = parameters.real(parameter("BATT_VOLT_MAX"));
+  current_ = 0.0F;
+  voltage_lpf_ = kBootLowPass;
+  current_lpf_ = kBootLowPass;
+  configure(parameters);
+}
+
+void BatteryMonitor::configure(const ParameterStore& parameters) {
+  const float voltage_factor = parameters.real(parameter("BATT_VOLT_MULT"));
+  const float current_factor = parameters.real(parameter("BATT_CURR_MULT"));
+  if (voltage_factor != 0.0F) voltage_factor_ = voltage_factor;
+  if (current_factor != 0.0F) current_factor_ = current_factor;
+}
+
+void BatteryMonitor::change_filters(const ParameterStore& parameters) {
+  voltage_lpf_ = parameters.real(parameter("BATT_VOLT_LPF"));
+  current_lpf_ = parameters.real(parameter("BATT_CURR_LPF"));
+}
+
+void BatteryMonitor::add(const BatteryInput& sample) {
+  voltage_ = (1.0F - voltage_lpf_) * (sample.voltage * voltage_factor_) + voltage_lpf_ * voltage_;
+  current_ = (1.0F - current_lpf_) * (sample.current * current_factor_) + current_lpf_ * current_;
+}
+
+}  // namespace ironbird::hil_bridge::virtual_fcu

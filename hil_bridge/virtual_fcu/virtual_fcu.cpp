@@ -1,0 +1,17 @@
+#include "hil_bridge/virtual_fcu/virtual_fcu.hpp"
+
+namespace ironbird::hil_bridge {
+
+VirtualFcu::VirtualFcu(const VirtualFcuConfig& config, simulator::World& world)
+    : world_(world), tick_(config.tick), host_(config) {}
+
+void VirtualFcu::advance(Time now) {
+  while (host_.now() + tick_ <= now) {
+    const Time next = host_.now() + tick_;
+    world_.set_armed(host_.firmware().arming().armed());
+    world_.step(host_.commands(), next);
+    host_.tick(world_.readings(), next);
+  }
+}
+
+}  // namespace ironbird::hil_bridge
