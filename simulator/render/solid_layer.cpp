@@ -311,8 +311,7 @@ SolidLayer::RawGlyph SolidLayer::glyph(char character) {
   glViewport(0, 0, viewport.width, viewport.height);
   const char text[2] = {character, '\0'};
   mjr_text(mjFONT_BIG, text, &renderer, static_cast<float>(kGlyphMargin) / static_cast<float>(viewport.width),
-           static_cast<float>(kGlyphMargin + height / 4) / static_cast<float>(viewport.height), 1.0F, 1.0F,
-           1.0F);
+           static_cast<float>(kGlyphMargin) / static_cast<float>(viewport.height), 1.0F, 1.0F, 1.0F);
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(viewport.width * viewport.height));
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadPixels(0, 0, viewport.width, viewport.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
