@@ -1,0 +1,257 @@
+#include "scenarios/video/film_script.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <stdexcept>
+
+#include "autopilot/types/flight_status.hpp"
+#include "scenarios/video/camera_work.hpp"
+#include "scenarios/video/pose_track.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+using simulator::Camera;
+using simulator::kMaxRotors;
+using simulator::Pose;
+using simulator::Vector3;
+
+constexpr double kEventShown = 3.0;     // s that an event's text stays in the picture
+constexpr double kBladeSpeed = 40.0;    // rad/s, up to here blades turn as they do
+constexpr double kApparentSpeed = 9.0;  // rad/s that the streaks of a faster rotor seem to turn with
+constexpr double kSpeedWindow = 0.1;    // s over which the speed in the text is taken
+constexpr std::array<double, 2> kTurn{1.0, -1.0};  // rotors turn left and right alternately
+
+const LogTopic& need(const Log& log, const char* name) {
+  const LogTopic* topic = log.topic(name);
+  if (topic == nullptr || topic->time().empty()) {
+    throw std::runtime_error(std::string("film: the log has no ") + name);
+  }
+  return *topic;
+}
+
+std::string metadata(const Log& log, const char* key, const char* otherwise) {
+  const auto run = log.metadata().find("run");
+  if (run == log.metadata().end()) {
+    return otherwise;
+  }
+  const auto value = run->second.find(key);
+  return value == run->second.end() || value->second.empty() ? otherwise : value->second;
+}
+
+std::string formatted(const char* format, double a, double b) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), format, a, b);
+  return text.data();
+}
+
+std::string phase_name(double phase) {
+  for (const auto& [value, name] : enumerators(autopilot::FlightPhase{})) {
+    if (static_cast<int>(value) == static_cast<int>(phase)) {
+      std::string text(name);
+      std::replace(text.begin(), text.end(), '_', ' ');
+      return text;
+    }
+  }
+  return "";
+}
+
+// The longest route of the log: later ones may be cleared or cut short.
+void read_route(const Log& log, FilmScript& script) {
+  const LogTopic* route = log.topic("/autopilot/route");
+  if (route == nullptr) {
+    return;
+  }
+  std::vector<Vector3> longest_N;
+  bool cyclic = false;
+  for (std::size_t message = 0; message < route->time().size(); ++message) {
+    std::vector<Vector3> points_N;
+    for (std::size_t i = 0;; ++i) {
+      const std::string name = "waypoints[" + std::to_string(i) + "].p_N.";
+      if (!route->has(name + "x") || !std::isfinite(route->column(name + "x")[message])) {
+        break;
+      }
+      points_N.emplace_back(route->column(name + "x")[message], route->column(name + "y")[message],
+                            route->column(name + "z")[message]);
+    }
+    if (points_N.size() > longest_N.size()) {
+      longest_N = points_N;
+      cyclic = route->has("cyclic") && route->column("cyclic")[message] > 0.5;
+    }
+  }
+  for (std::size_t i = 0; i < longest_N.size(); ++i) {
+    script.waypoints.push_back({longest_N[i], std::to_string(i + 1), false});
+  }
+  script.planned_path_N = longest_N;
+  if (cyclic && longest_N.size() > 2) {
+    script.planned_path_N.push_back(longest_N.front());
+  }
+}
+
+// The last event that is still fresh, or an empty text.
+std::string event_at(const LogTopic* events, double time) {
+  if (events == nullptr) {
+    return "";
+  }
+  const std::vector<double>& times = events->time();
+  const auto after = std::upper_bound(times.begin(), times.end(), time);
+  if (after == times.begin() || time - *(after - 1) > kEventShown) {
+    return "";
+  }
+  return events->texts("text")[static_cast<std::size_t>(after - times.begin()) - 1];
+}
+
+class Director {
+ public:
+  Director(const Log& log, const FilmOptions& options)
+      : options_(options),
+        shown_topic_(need(log, options.from_estimate ? "/autopilot/estimate" : "/truth/state")),
+        shown_(shown_topic_),
+        estimate_topic_(log.topic("/autopilot/estimate")),
+        events_(log.topic("/bench/event")),
+        phase_(log.topic("/autopilot/flight"), "phase", -1.0),
+        reached_(log.topic("/autopilot/trajectory"), "reached", 0.0),
+        trajectory_(log.topic("/autopilot/trajectory")),
+        valid_(trajectory_, "valid", 0.0),
+        wanted_{HeldColumn(trajectory_, "p_N.x", 0.0), HeldColumn(trajectory_, "p_N.y", 0.0),
+                HeldColumn(trajectory_, "p_N.z", 0.0)} {
+    for (int i = 0; i < kMaxRotors; ++i) {
+      rotors_.emplace_back(&shown_topic_, "rotor_speed[" + std::to_string(i) + "]", 0.0);
+    }
+  }
+
+  void shoot(FilmScript& script) {
+    const double begin = std::max(options_.begin, shown_.begin());
+    const double end = std::min(options_.end, shown_.end());
+    const auto count =
+        static_cast<std::size_t>(std::max(1.0, std::floor((end - begin) * options_.frame_rate + 1.5)));
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < count; ++i) {
+      script.frames.push_back(frame(begin + static_cast<double>(i) / options_.frame_rate));
+      poses.push_back(script.frames.back().truth.pose);
+    }
+    aim(script, poses);
+  }
+
+ private:
+  FilmFrame frame(double time) {
+    FilmFrame frame;
+    frame.time = time;
+    frame.truth.pose = shown_.at(time);
+    turn_rotors(frame.truth, time);
+    frame.waypoints_reached = static_cast<int>(reached_.at(time));
+    const double speed =
+        (shown_.at(time).p_NB_N - shown_.at(time - kSpeedWindow).p_NB_N).norm() / kSpeedWindow;
+    std::string first = formatted("%.1f s", time, 0.0);
+    const std::string phase = phase_name(phase_.at(time));
+    frame.captions.push_back(phase.empty() ? first : first + "   " + phase);
+    frame.captions.push_back(
+        formatted("height %.1f m   speed %.1f m/s", -frame.truth.pose.p_NB_N.z(), speed));
+    add_errors(frame, time);
+    if (const std::string event = event_at(events_, time); !event.empty()) {
+      frame.captions.push_back("> " + event);
+    }
+    return frame;
+  }
+
+  void add_errors(FilmFrame& frame, double time) {
+    const Vector3 wanted_N(wanted_[0].at(time), wanted_[1].at(time), wanted_[2].at(time));
+    const double off_path = (wanted_N - frame.truth.pose.p_NB_N).norm();
+    const bool flying =
+        valid_.at(time) > 0.5 && phase_.at(time) == static_cast<double>(autopilot::FlightPhase::kOffboard);
+    std::string line;
+    if (!options_.from_estimate && estimate_topic_ != nullptr && !estimate_topic_->time().empty()) {
+      frame.estimate = PoseTrack(*estimate_topic_).at(time);
+      line = formatted("estimate off %.2f m", (frame.estimate->p_NB_N - frame.truth.pose.p_NB_N).norm(), 0.0);
+    }
+    if (flying) {
+      line += formatted(line.empty() ? "path off %.2f m" : "   path off %.2f m", off_path, 0.0);
+    }
+    if (!line.empty()) {
+      frame.captions.push_back(line);
+    }
+  }
+
+  void turn_rotors(simulator::RenderSample& sample, double time) {
+    for (std::size_t i = 0; i < rotors_.size(); ++i) {
+      const double speed = rotors_[i].at(time);
+      // At thirty pictures a second true angles of a fast rotor would look like noise.
+      const double apparent = std::abs(speed) <= kBladeSpeed ? speed : kApparentSpeed;
+      angle_[i] += kTurn[i % 2] * apparent / options_.frame_rate;
+      sample.rotor_speed[i] = speed;
+      sample.rotor_angle[i] = std::remainder(angle_[i], 2.0 * std::numbers::pi);
+    }
+  }
+
+  void aim(FilmScript& script, const std::vector<Pose>& poses) const {
+    const std::vector<Camera> chase = chase_cameras(poses, 1.0 / options_.frame_rate);
+    std::vector<Vector3> everything_N = script.planned_path_N;
+    for (const Pose& pose : poses) {
+      everything_N.push_back(pose.p_NB_N);
+    }
+    const Camera top = top_camera(everything_N, static_cast<double>(options_.width) / options_.height);
+    std::size_t cut = 0;
+    std::string name = "chase";
+    for (std::size_t i = 0; i < script.frames.size(); ++i) {
+      for (; cut < options_.cuts.size() && options_.cuts[cut].at <= script.frames[i].time; ++cut) {
+        name = options_.cuts[cut].camera;
+      }
+      script.frames[i].camera = name == "chase" ? chase[i] : name == "top" ? top : fixed(name);
+    }
+  }
+
+  const Camera& fixed(const std::string& name) const {
+    for (const NamedCamera& camera : options_.cameras) {
+      if (camera.name == name) {
+        return camera.camera;
+      }
+    }
+    throw std::invalid_argument("film: there is no camera named '" + name + "'");
+  }
+
+  const FilmOptions& options_;
+  const LogTopic& shown_topic_;
+  PoseTrack shown_;
+  const LogTopic* estimate_topic_;
+  const LogTopic* events_;
+  HeldColumn phase_;
+  HeldColumn reached_;
+  const LogTopic* trajectory_;
+  HeldColumn valid_;
+  std::array<HeldColumn, 3> wanted_;
+  std::vector<HeldColumn> rotors_;
+  std::array<double, kMaxRotors> angle_{};
+};
+
+}  // namespace
+
+FilmScript film_script(const Log& log, const FilmOptions& options) {
+  FilmScript script;
+  const std::filesystem::path root = std::filesystem::absolute(options.project_root);
+  script.renderer = {(root / metadata(log, "vehicle", "models/x650") / "scene.xml").string(),
+                     (root / metadata(log, "field", "models/fields/flat.xml")).string(), options.width,
+                     options.height, options.quality};
+  script.frame_rate = options.frame_rate;
+  script.title = metadata(log, "title", "");
+  read_route(log, script);
+  Director(log, options).shoot(script);
+  return script;
+}
+
+std::size_t frame_at(const FilmScript& script, double time) {
+  const auto after = std::lower_bound(script.frames.begin(), script.frames.end(), time,
+                                      [](const FilmFrame& frame, double t) { return frame.time < t; });
+  if (after == script.frames.begin()) {
+    return 0;
+  }
+  const auto index = static_cast<std::size_t>(after - script.frames.begin());
+  if (index == script.frames.size()) {
+    return index - 1;
+  }
+  return time - script.frames[index - 1].time < script.frames[index].time - time ? index - 1 : index;
+}
+
+}  // namespace ironbird::scenarios

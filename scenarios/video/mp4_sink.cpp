@@ -1,0 +1,209 @@
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+#include "scenarios/video/video_sink.hpp"
+
+extern char** environ;
+
+namespace ironbird::scenarios {
+namespace {
+
+// Writes everything, without a signal when the reader has gone. @return false when it has
+bool write_all(int descriptor, std::span<const std::uint8_t> bytes) {
+  sigset_t pipe_signal;
+  sigset_t before;
+  sigemptyset(&pipe_signal);
+  sigaddset(&pipe_signal, SIGPIPE);
+  pthread_sigmask(SIG_BLOCK, &pipe_signal, &before);
+  bool whole = true;
+  while (whole && !bytes.empty()) {
+    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(count));
+    } else if (errno != EINTR) {
+      whole = false;
+    }
+  }
+  if (!whole) {
+    const timespec now{};
+    sigtimedwait(&pipe_signal, nullptr, &now);
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return whole;
+}
+
+class Mp4Sink final : public VideoSink {
+ public:
+  Mp4Sink(const std::filesystem::path& file, const VideoFormat& format, const std::string& preset,
+          const std::string& program)
+      : program_(program), file_(file), part_(file.string() + ".part"), complaints_(file.string() + ".log") {
+    start(arguments(format, preset));
+  }
+
+  ~Mp4Sink() override {
+    if (input_ >= 0) {
+      ::close(input_);
+    }
+    if (process_ > 0) {
+      ::kill(process_, SIGKILL);
+      ::waitpid(process_, nullptr, 0);
+    }
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+    std::filesystem::remove(complaints_, ignored);
+  }
+
+  void write(std::span<const std::uint8_t> yuv) override {
+    if (!write_all(input_, yuv)) {
+      wait();
+      fail();
+    }
+  }
+
+  void finish() override {
+    ::close(input_);
+    input_ = -1;
+    if (wait() != 0) {
+      fail();
+    }
+    std::filesystem::rename(part_, file_);
+  }
+
+ private:
+  std::vector<std::string> arguments(const VideoFormat& format, const std::string& preset) const {
+    return {program_,
+            "-nostdin",
+            "-hide_banner",
+            "-loglevel",
+            "error",
+            "-y",
+            "-f",
+            "rawvideo",
+            "-pix_fmt",
+            "yuv420p",
+            "-s",
+            std::to_string(format.width) + "x" + std::to_string(format.height),
+            "-framerate",
+            std::to_string(format.frame_rate),
+            "-color_range",
+            "tv",
+            "-colorspace",
+            "bt709",
+            "-color_primaries",
+            "bt709",
+            "-color_trc",
+            "bt709",
+            "-i",
+            "pipe:0",
+            "-an",
+            "-c:v",
+            "libx264",
+            "-preset",
+            preset,
+            "-crf",
+            "21",
+            "-threads",
+            "1",
+            "-pix_fmt",
+            "yuv420p",
+            "-color_range",
+            "tv",
+            "-colorspace",
+            "bt709",
+            "-color_primaries",
+            "bt709",
+            "-color_trc",
+            "bt709",
+            "-fflags",
+            "+bitexact",
+            "-flags:v",
+            "+bitexact",
+            "-movflags",
+            "+faststart",
+            "-f",
+            "mp4",
+            part_.string()};
+  }
+
+  void start(std::vector<std::string> words) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+      throw std::runtime_error(std::string("film: no pipe: ") + std::strerror(errno));
+    }
+    input_ = ends[1];
+    std::vector<char*> pointers;
+    for (std::string& word : words) {
+      pointers.push_back(word.data());
+    }
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[0], 0);
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 2, complaints_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    const int error =
+        ::posix_spawnp(&process_, program_.c_str(), &actions, nullptr, pointers.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[0]);
+    if (error != 0) {
+      process_ = -1;
+      ::close(input_);
+      std::error_code ignored;
+      std::filesystem::remove(complaints_, ignored);
+      const bool missing =
+          error == ENOENT && std::filesystem::exists(file_.parent_path().empty() ? "." : file_.parent_path());
+      throw std::runtime_error(file_.string() + ": " +
+                               (missing
+                                    ? "the program '" + program_ + "' is needed for films and was not found"
+                                    : "cannot start '" + program_ + "': " + std::strerror(error)));
+    }
+  }
+
+  int wait() {
+    int status = -1;
+    if (process_ > 0) {
+      ::waitpid(process_, &status, 0);
+    }
+    process_ = -1;
+    return status;
+  }
+
+  [[noreturn]] void fail() {
+    std::string line = "it gave no reason";
+    if (FILE* stream = std::fopen(complaints_.c_str(), "r"); stream != nullptr) {
+      std::array<char, 400> text{};
+      if (std::fgets(text.data(), static_cast<int>(text.size()), stream) != nullptr) {
+        line = text.data();
+        line.erase(line.find_last_not_of("\r\n") + 1);
+      }
+      std::fclose(stream);
+    }
+    throw std::runtime_error(file_.string() + ": '" + program_ + "' failed: " + line);
+  }
+
+  std::string program_;
+  std::filesystem::path file_;
+  std::filesystem::path part_;
+  std::filesystem::path complaints_;
+  pid_t process_ = -1;
+  int input_ = -1;
+};
+
+}  // namespace
+
+std::unique_ptr<VideoSink> make_mp4_sink(const std::filesystem::path& file, const VideoFormat& format,
+                                         const std::string& preset, const std::string& program) {
+  return std::make_unique<Mp4Sink>(file, format, preset, program);
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "scenarios/record/log.hpp"
+#include "simulator/render/render_sample.hpp"
+
+namespace ironbird::scenarios {
+
+/// A column of a log as a function of time: the last value at or before it. Times must be asked in order.
+class HeldColumn {
+ public:
+  /// @param topic  may be null: then always `otherwise`
+  HeldColumn(const LogTopic* topic, const std::string& field, double otherwise);
+  double at(double time);
+
+ private:
+  const std::vector<double>* time_ = nullptr;
+  const std::vector<double>* value_ = nullptr;
+  double otherwise_;
+  std::size_t next_ = 0;
+};
+
+/// Poses of a log between their samples: positions linearly, attitudes along the shortest turn.
+class PoseTrack {
+ public:
+  /// @throws std::out_of_range when the topic has no p_NB_N and q_NB
+  explicit PoseTrack(const LogTopic& topic);
+  bool empty() const { return time_->empty(); }
+  double begin() const { return time_->front(); }
+  double end() const { return time_->back(); }
+  /// The pose at a time; the first or last one outside the log.
+  simulator::Pose at(double time) const;
+
+ private:
+  simulator::Pose sample(std::size_t index) const;
+
+  const std::vector<double>* time_;
+  std::array<const std::vector<double>*, 7> columns_;
+};
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,149 @@
+#include "simulator/render/ground_marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ironbird::simulator {
+namespace {
+
+constexpr int kTexels = 512;
+constexpr int kSubsamples = 3;  // per texel and axis while painting
+
+using Paint = GroundMarks::Paint;
+
+constexpr Paint kConcrete{96.0F * 0.92F, 99.0F * 0.92F, 102.0F * 0.92F, 0.92F};
+constexpr Paint kWhite{238.0F, 240.0F, 240.0F, 1.0F};
+constexpr Paint kYellow{247.0F, 190.0F, 40.0F, 1.0F};
+constexpr Paint kRed{226.0F, 66.0F, 36.0F, 1.0F};
+
+// x east, y north, in radii of the pad.
+Paint helipad_paint(double x, double y) {
+  const double r = std::hypot(x, y);
+  if (r > 1.0) {
+    return {};
+  }
+  if (r > 0.86 && r < 0.95) {
+    return kYellow;
+  }
+  const bool upright = std::abs(std::abs(x) - 0.30) < 0.075 && std::abs(y) < 0.48;
+  const bool bar = std::abs(x) < 0.30 && std::abs(y) < 0.075;
+  return upright || bar ? kWhite : kConcrete;
+}
+
+double glyph_coverage(const GlyphAtlas& letters, char letter, double x, double y) {
+  const GlyphAtlas::Glyph& glyph = letters.glyph(letter);
+  const int column = static_cast<int>(std::floor(x + letters.left_bearing() + 0.5 * glyph.advance));
+  const int row = static_cast<int>(std::floor(y + letters.baseline() - 0.5 * letters.cap_height()));
+  if (column < 0 || row < 0 || column >= glyph.width || row >= letters.height()) {
+    return 0.0;
+  }
+  return glyph.coverage[static_cast<std::size_t>(row * glyph.width + column)] / 255.0;
+}
+
+Paint faded(const Paint& paint, double opacity) {
+  const float k = static_cast<float>(opacity);
+  return {paint.r * k, paint.g * k, paint.b * k, paint.opacity * k};
+}
+
+// x east, y north, in radii of the rose.
+Paint rose_paint(double x, double y, const GlyphAtlas& letters) {
+  const double r = std::hypot(x, y);
+  const double bearing = std::atan2(x, y);
+  if (std::abs(r - 0.985) < 0.012) {
+    return faded(kWhite, 0.8);
+  }
+  const double tick = std::remainder(bearing, std::numbers::pi / 18.0) * r;
+  const bool long_tick = std::abs(std::remainder(bearing, std::numbers::pi / 6.0) * r) < 0.011;
+  if (r < 0.985 && ((std::abs(tick) < 0.006 && r > 0.935) || (long_tick && r > 0.89))) {
+    return faded(kWhite, 0.8);
+  }
+  constexpr std::array<char, 4> kLetters{'N', 'E', 'S', 'W'};
+  const double texels = letters.cap_height() / 0.20;  // letters a fifth of the radius high
+  for (std::size_t i = 0; i < kLetters.size(); ++i) {
+    const double angle = static_cast<double>(i) * std::numbers::pi / 2.0;
+    const double east = x - 0.72 * std::sin(angle);
+    const double north = y - 0.72 * std::cos(angle);
+    const double ink = glyph_coverage(letters, kLetters[i], east * texels, -north * texels);
+    if (ink > 0.0) {
+      return faded(i == 0 ? kRed : kWhite, ink);
+    }
+  }
+  // The arrow at north, outside the ring of letters.
+  if (y > 1.0 && y < 1.18 && std::abs(x) < 0.45 * (1.18 - y)) {
+    return kRed;
+  }
+  return {};
+}
+
+Paint operator+(const Paint& a, const Paint& b) {
+  return {a.r + b.r, a.g + b.g, a.b + b.b, a.opacity + b.opacity};
+}
+
+}  // namespace
+
+GroundMarks::GroundMarks(const GroundMark& helipad, const GroundMark& compass_rose, const GlyphAtlas& letters)
+    : center_N_(helipad.radius > 0.0 ? helipad.p_N : compass_rose.p_N),
+      half_size_(1.2 * std::max(helipad.radius, compass_rose.radius)) {
+  if (half_size_ == 0.0) {
+    return;
+  }
+  Level full{kTexels, std::vector<Paint>(static_cast<std::size_t>(kTexels * kTexels))};
+  const double step = 2.0 * half_size_ / (kTexels * kSubsamples);
+  for (int j = 0; j < kTexels * kSubsamples; ++j) {
+    for (int i = 0; i < kTexels * kSubsamples; ++i) {
+      const double east = (i + 0.5) * step - half_size_;
+      const double north = half_size_ - (j + 0.5) * step;
+      Paint paint;
+      if (helipad.radius > 0.0) {
+        paint = helipad_paint(east / helipad.radius, north / helipad.radius);
+      }
+      if (paint.opacity == 0.0F && compass_rose.radius > 0.0) {
+        paint = rose_paint(east / compass_rose.radius, north / compass_rose.radius, letters);
+      }
+      Paint& texel = full.paint[static_cast<std::size_t>(j / kSubsamples * kTexels + i / kSubsamples)];
+      texel = texel + faded(paint, 1.0 / (kSubsamples * kSubsamples));
+    }
+  }
+  levels_.push_back(std::move(full));
+  while (levels_.back().size > 1) {
+    const Level& fine = levels_.back();
+    Level coarse{fine.size / 2, {}};
+    for (int j = 0; j < coarse.size; ++j) {
+      for (int i = 0; i < coarse.size; ++i) {
+        const Paint* at = fine.paint.data() + 2 * j * fine.size + 2 * i;
+        coarse.paint.push_back(faded(at[0] + at[1] + at[fine.size] + at[fine.size + 1], 0.25));
+      }
+    }
+    levels_.push_back(std::move(coarse));
+  }
+}
+
+Paint GroundMarks::sample(float north, float east, float footprint) const {
+  const float texels = footprint * static_cast<float>(kTexels / (2.0 * half_size_));
+  std::size_t index = 0;
+  for (float span = 1.5F; texels > span && index + 1 < levels_.size(); span *= 2.0F) {
+    ++index;
+  }
+  const Level& level = levels_[index];
+  const float scale = static_cast<float>(level.size / (2.0 * half_size_));
+  const float x = (east - static_cast<float>(center_N_.y() - half_size_)) * scale - 0.5F;
+  const float y = (static_cast<float>(center_N_.x() + half_size_) - north) * scale - 0.5F;
+  if (!(x >= 0.0F && y >= 0.0F && x < static_cast<float>(level.size - 1) &&
+        y < static_cast<float>(level.size - 1))) {
+    return {};
+  }
+  const int i = static_cast<int>(x);
+  const int j = static_cast<int>(y);
+  const float fx = x - static_cast<float>(i);
+  const float fy = y - static_cast<float>(j);
+  const Paint* at = level.paint.data() + j * level.size + i;
+  const auto blend = [&](float Paint::*c) {
+    const float upper = at[0].*c + fx * (at[1].*c - at[0].*c);
+    const float lower = at[level.size].*c + fx * (at[level.size + 1].*c - at[level.size].*c);
+    return upper + fy * (lower - upper);
+  };
+  return {blend(&Paint::r), blend(&Paint::g), blend(&Paint::b), blend(&Paint::opacity)};
+}
+
+}  // namespace ironbird::simulator
