@@ -54,7 +54,7 @@ void whole_step(benchmark::State& state, const char* manager) {
 BENCHMARK_CAPTURE(whole_step, smoothstep, "smoothstep_manager");
 BENCHMARK_CAPTURE(whole_step, minimum_snap, "minimum_snap_manager");
 
-/// Planner, manager, follower and controller without the estimator.
+/// Planner, manager, follower and controller without the estimator, on the way along a leg.
 void guidance_and_control(benchmark::State& state, const char* manager_kind) {
   Flight flight(with(manager_kind));
   const Modules modules = standard_modules();
@@ -63,10 +63,8 @@ void guidance_and_control(benchmark::State& state, const char* manager_kind) {
   const auto manager = modules.path_managers.make(manager_kind);
   const auto follower = modules.trajectory_followers.make("flat_pid_follower");
   const auto controller = modules.controllers.make("cascaded_controller");
-  for (Module* module : {static_cast<Module*>(planner.get()), static_cast<Module*>(manager.get()),
-                         static_cast<Module*>(follower.get()), static_cast<Module*>(controller.get())}) {
-    module->take_over(signals);
-  }
+  planner->take_over(signals);
+  controller->take_over(signals);
   StateEstimate estimate = signals.estimate;
   const FlightStatus status = signals.flight;
   for (auto _ : state) {

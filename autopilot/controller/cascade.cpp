@@ -42,14 +42,12 @@ FcuCommand Cascade::fly(const ControlSetpoint& setpoint, const StateEstimate& es
   estimate_ = &estimate;
   step_ = step;
   lift_ = 0.0;
+  const std::array<bool, kLoops> used_before = used_;
   used_.fill(false);
   const FcuCommand command = std::visit([this](const auto& entry) { return enter(entry); }, setpoint);
   for (std::size_t i = 0; i < loops_.size(); ++i) {
-    if (!used_[i]) {
-      loops_[i].reset();
-    } else if (!step.integrate) {
-      loops_[i].reset_integral();
-    }
+    if (used_before[i] && !used_[i]) loops_[i].reset();
+    if (used_[i] && !step.integrate) loops_[i].reset_integral();
   }
   estimate_ = nullptr;
   return command;

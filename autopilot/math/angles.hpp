@@ -7,6 +7,7 @@ namespace ironbird::autopilot {
 
 /// The same angle in (-pi, pi], rad.
 inline double wrap(double angle) {
+  if (std::abs(angle) < std::numbers::pi) return angle;
   const double turned = std::remainder(angle, 2.0 * std::numbers::pi);
   return turned <= -std::numbers::pi ? std::numbers::pi : turned;
 }

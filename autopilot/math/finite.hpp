@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <type_traits>
 #include <variant>
@@ -13,7 +12,7 @@ namespace ironbird::autopilot {
 /// flags, stamps and enumerations always are.
 class FiniteVisitor {
  public:
-  bool finite() const { return finite_; }
+  bool finite() const { return differences_ == 0.0; }
 
   template <class Value, class... Rest>
   void operator()(const char*, const Value& value, Rest&&...) {
@@ -21,12 +20,17 @@ class FiniteVisitor {
   }
 
  private:
-  void look(double value) { finite_ = finite_ && std::isfinite(value); }
-  void look(const Quaternion& value) { finite_ = finite_ && value.coeffs().allFinite(); }
+  // x - x is 0 for every finite x and NaN for every other: one sum, no branches.
+  void look(double value) { differences_ += value - value; }
+  void look(const Quaternion& value) { look_at(value.coeffs()); }
 
   template <int rows, int columns>
   void look(const Eigen::Matrix<double, rows, columns>& value) {
-    finite_ = finite_ && value.allFinite();
+    look_at(value);
+  }
+  template <class Coefficients>
+  void look_at(const Coefficients& value) {
+    for (Eigen::Index i = 0; i < value.size(); ++i) look(value(i));
   }
 
   template <class Value>
@@ -39,7 +43,7 @@ class FiniteVisitor {
     if constexpr (requires { Value::describe(value, *this); }) Value::describe(value, *this);
   }
 
-  bool finite_ = true;
+  double differences_ = 0.0;
 };
 
 /// True when every floating-point number in the described struct is finite.

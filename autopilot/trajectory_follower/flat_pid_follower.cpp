@@ -16,10 +16,16 @@ bool is_usable(Health health) {
   return health == Health::kGood || health == Health::kDegraded;
 }
 
-/// Heading rate of the estimate, rad/s.
+/// Heading rate of the estimate, rad/s: (w_y sin(roll) + w_z cos(roll)) / cos(pitch), with the last row of
+/// R_NB for the products of angles.
 double turning(const StateEstimate& estimate) {
-  return (estimate.w_NB_B.y() * std::sin(estimate.roll) + estimate.w_NB_B.z() * std::cos(estimate.roll)) /
-         std::max(std::cos(estimate.pitch), kSmallestCosine);
+  const Quaternion& q = estimate.q_NB;
+  const double sin_roll_cos_pitch = 2.0 * (q.y() * q.z() + q.w() * q.x());
+  const double cos_roll_cos_pitch = 1.0 - 2.0 * (q.x() * q.x() + q.y() * q.y());
+  const double cos_pitch_squared =
+      sin_roll_cos_pitch * sin_roll_cos_pitch + cos_roll_cos_pitch * cos_roll_cos_pitch;
+  return (estimate.w_NB_B.y() * sin_roll_cos_pitch + estimate.w_NB_B.z() * cos_roll_cos_pitch) /
+         std::max(cos_pitch_squared, kSmallestCosine * kSmallestCosine);
 }
 
 }  // namespace

@@ -9,10 +9,9 @@ Vector3 limit_specific_force(const Vector3& u_N, const ForceLimits& limits) {
   const double lift = std::clamp(-u_N.z(), limits.min_lift, std::max(limits.min_lift, limits.max_magnitude));
   const double room = std::max(limits.max_magnitude * limits.max_magnitude - lift * lift, 0.0);
   const double most = std::min(lift * limits.tan_max_tilt, std::sqrt(room));
-  const double horizontal = u_N.head<2>().norm();
+  const double horizontal = std::sqrt(u_N.x() * u_N.x() + u_N.y() * u_N.y());
   const double share = horizontal > most ? most / horizontal : 1.0;
-  Vector3 allowed_N;
-  allowed_N << share * u_N.head<2>(), -lift;
+  const Vector3 allowed_N(share * u_N.x(), share * u_N.y(), -lift);
   const double magnitude = allowed_N.norm();
   return magnitude < limits.min_magnitude ? Vector3(limits.min_magnitude / magnitude * allowed_N) : allowed_N;
 }
