@@ -33,7 +33,8 @@ int run_command_line(int argc, char** argv, const autopilot::Modules& modules) {
       "Exit codes: 0 all checks hold, 1 a check failed, 2 usage or configuration, 4 internal error,\n"
       "5 inconclusive or invalid, 130 interrupted.\n"
       "Start with: ironbird run scenarios/library/paper/three_waypoints.toml");
-  const std::array<Verb, 3> verbs = {run_verb(), check_verb(), topics_verb()};
+  const std::array<Verb, 6> verbs = {run_verb(),   check_verb(),    report_verb(),
+                                     video_verb(), snapshot_verb(), topics_verb()};
   std::function<int(const autopilot::Modules&)> chosen;
   for (const Verb& verb : verbs) {
     CLI::App* command = app.add_subcommand(verb.name, verb.summary);

@@ -21,7 +21,10 @@ struct Verb {
 
 Verb run_verb();
 Verb check_verb();
+Verb report_verb();
+Verb snapshot_verb();
 Verb topics_verb();
+Verb video_verb();
 
 /// The whole program: reads the command line, runs one verb, reports errors in one line.
 /// @param modules  the kinds of module that scenarios can name; a researcher adds their own to

@@ -21,6 +21,7 @@ struct RunArguments {
   std::vector<std::string> settings;
   std::string seeds;
   std::string out = "out";
+  std::string junit;
   int jobs = 1;
   bool json = false;
   RunProducts products;
@@ -86,6 +87,7 @@ int run(RunArguments arguments, const autopilot::Modules& modules) {
   const std::vector<RunJob> jobs = make_jobs(arguments, modules);
   const Terminal terminal = Terminal::of_standard_error();
   const std::vector<RunResult> results = run_jobs(jobs, modules, arguments.jobs, terminal);
+  if (!arguments.junit.empty()) write_junit_file(results, arguments.junit);
   if (arguments.json) std::fputs(summary_json(results).c_str(), stdout);
   if (results.size() > 1) std::fputs(summary_text(results, terminal).c_str(), stderr);
   return exit_code_of(results);
@@ -112,6 +114,7 @@ Verb run_verb() {
                          "make the pictures that the scenario names");
             app.add_flag("--no-log", arguments->no_log, "write no log and no report, only the verdict");
             app.add_flag("--no-report", arguments->no_report, "write no report");
+            app.add_option("--junit", arguments->junit, "write a JUnit file for a build server");
             app.add_flag("--json", arguments->json, "verdicts as JSON on standard output");
             app.footer(
                 "Examples:\n"

@@ -56,7 +56,7 @@ RunResult carry_out(const RunJob& job, const autopilot::Modules& modules, const 
   write_verdict(*result.verdict, job.folder / "verdict.json");
   tell(*result.verdict, terminal);
   result.exit_code = interrupted ? static_cast<int>(kExitInterrupted) : exit_code(result.verdict->outcome);
-  if (!interrupted) make_products(job, *result.verdict, terminal);
+  if (!interrupted && !make_products(job, terminal)) result.exit_code = kExitInterrupted;
   return result;
 }
 

@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string_view>
 
 #include "scenarios/app/exit_code.hpp"
+#include "scenarios/report/junit.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
 
 namespace ironbird::scenarios {
@@ -79,6 +82,16 @@ std::string summary_json(const std::vector<RunResult>& results) {
     }
   }
   return all.dump(2) + "\n";
+}
+
+void write_junit_file(const std::vector<RunResult>& results, const std::filesystem::path& file) {
+  std::vector<Verdict> verdicts;
+  for (const RunResult& result : results) {
+    if (result.verdict) verdicts.push_back(*result.verdict);
+  }
+  std::ofstream stream(file, std::ios::binary);
+  stream << junit_xml(verdicts);
+  if (!stream.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
 }  // namespace ironbird::scenarios

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,5 +17,8 @@ std::string summary_text(const std::vector<RunResult>& results, const Terminal& 
 
 /// A JSON array of the verdicts; a run without one gives an object with its error.
 std::string summary_json(const std::vector<RunResult>& results);
+
+/// Writes the verdicts as JUnit XML. @throws std::runtime_error when the file cannot be written
+void write_junit_file(const std::vector<RunResult>& results, const std::filesystem::path& file);
 
 }  // namespace ironbird::scenarios

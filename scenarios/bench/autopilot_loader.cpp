@@ -125,8 +125,8 @@ class AutopilotReader {
 
   void set_environment(ParameterTable& parameters, const std::string& slot, ModuleSettings& settings) {
     const simulator::EnvironmentParams& environment = loaded_.scenario.environment;
-    const std::pair<const char*, double> site[] = {{"gravity", environment.gravity},
-                                                   {"mag.declination", environment.magnetic_field.declination}};
+    const std::pair<const char*, double> site[] = {
+        {"gravity", environment.gravity}, {"mag.declination", environment.magnetic_field.declination}};
     for (const auto& [name, value] : site) {
       const std::string path = slot + "." + name;
       if (parameters.find(path) != nullptr) settings.values.emplace_back(path, value);

@@ -15,18 +15,6 @@ namespace {
 
 constexpr const char* kVehicleFiles[] = {"vehicle.toml", "sensors.toml", "fcu.toml", "autopilot.toml"};
 
-/// The folder above `file`, or above the working folder, in which models/ lies.
-std::filesystem::path find_project_root(const std::filesystem::path& file) {
-  for (const std::filesystem::path& start :
-       {std::filesystem::absolute(file).parent_path(), std::filesystem::current_path()}) {
-    for (std::filesystem::path folder = start;; folder = folder.parent_path()) {
-      if (std::filesystem::is_directory(folder / "models")) return folder;
-      if (folder == folder.root_path()) break;
-    }
-  }
-  return std::filesystem::current_path();
-}
-
 /// The path as a reader would write it: from the working folder when it lies below it.
 std::filesystem::path readable(const std::filesystem::path& path) {
   const std::filesystem::path relative = path.lexically_relative(std::filesystem::current_path());
@@ -120,6 +108,17 @@ ConfigError LoadedScenario::located(const std::invalid_argument& error) const {
     path = cut == std::string::npos ? std::string() : path.substr(0, cut);
   }
   return ConfigError(readable(file).string() + ": " + text);
+}
+
+std::filesystem::path find_project_root(const std::filesystem::path& file) {
+  for (const std::filesystem::path& start :
+       {std::filesystem::absolute(file).parent_path(), std::filesystem::current_path()}) {
+    for (std::filesystem::path folder = start;; folder = folder.parent_path()) {
+      if (std::filesystem::is_directory(folder / "models")) return folder;
+      if (folder == folder.root_path()) break;
+    }
+  }
+  return std::filesystem::current_path();
 }
 
 LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides& overrides,

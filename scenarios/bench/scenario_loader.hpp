@@ -48,6 +48,9 @@ struct LoadedScenario {
   ConfigError located(const std::invalid_argument& error) const;
 };
 
+/// The folder above `file`, or else above the working folder, in which models/ lies; else the working folder.
+std::filesystem::path find_project_root(const std::filesystem::path& file);
+
 /// Reads a scenario, its includes and its vehicle's files, and checks everything that can be checked without
 /// flying.
 /// @param modules  the kinds that `[autopilot]` can name

@@ -1,0 +1,68 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "scenarios/app/command_line.hpp"
+#include "scenarios/app/exit_code.hpp"
+#include "scenarios/app/interrupt.hpp"
+#include "scenarios/app/products.hpp"
+#include "scenarios/app/terminal.hpp"
+#include "scenarios/bench/scenario_loader.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+struct VideoArguments {
+  std::string log;
+  std::string out = "video.mp4";
+  bool preview = false;
+};
+
+struct SnapshotArguments {
+  std::string log;
+  std::string out = "snapshots";
+};
+
+int video(const VideoArguments& arguments) {
+  note_interrupts();
+  const Log log = Log::read(arguments.log);
+  const bool whole = make_video(log, find_project_root(arguments.log), arguments.out, arguments.preview,
+                                Terminal::of_standard_error());
+  if (whole) std::fprintf(stderr, "%s\n", arguments.out.c_str());
+  return whole ? kExitPass : kExitInterrupted;
+}
+
+int snapshot(const SnapshotArguments& arguments) {
+  const Log log = Log::read(arguments.log);
+  for (const auto& file : make_snapshots(log, find_project_root(arguments.log), arguments.out)) {
+    std::fprintf(stderr, "%s\n", file.c_str());
+  }
+  return kExitPass;
+}
+
+}  // namespace
+
+Verb video_verb() {
+  return {"video", "make the film of a log", [](CLI::App& app) {
+            auto arguments = std::make_shared<VideoArguments>();
+            app.add_option("log", arguments->log, "flight.mcap of a run")->required();
+            app.add_option("--out", arguments->out, "file to write, .mp4 or .y4m")->capture_default_str();
+            app.add_flag("--preview", arguments->preview, "quicker and plainer pictures");
+            app.footer("Example:\n  ironbird video out/three_waypoints/flight.mcap --out mission.mp4");
+            return [arguments](const autopilot::Modules&) { return video(*arguments); };
+          }};
+}
+
+Verb snapshot_verb() {
+  return {"snapshot", "take the pictures that a log's scenario names", [](CLI::App& app) {
+            auto arguments = std::make_shared<SnapshotArguments>();
+            app.add_option("log", arguments->log, "flight.mcap of a run")->required();
+            app.add_option("--out", arguments->out, "folder for the pictures")->capture_default_str();
+            app.footer("Example:\n  ironbird snapshot out/three_waypoints/flight.mcap");
+            return [arguments](const autopilot::Modules&) { return snapshot(*arguments); };
+          }};
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,51 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scenarios/app/command_line.hpp"
+#include "scenarios/app/exit_code.hpp"
+#include "scenarios/report/report.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+struct ReportArguments {
+  std::vector<std::string> logs;
+  std::string out = "report.html";
+};
+
+int report(const ReportArguments& arguments) {
+  std::vector<ReportRun> runs;
+  for (const std::string& file : arguments.logs) {
+    const std::filesystem::path log = file;
+    const std::filesystem::path folder = log.parent_path();
+    runs.push_back(ReportRun::read(folder.empty() ? log.stem().string() : folder.filename().string(), log,
+                                   folder / "verdict.json"));
+  }
+  write_report(runs, arguments.out);
+  std::fprintf(stderr, "%s\n", arguments.out.c_str());
+  return kExitPass;
+}
+
+}  // namespace
+
+Verb report_verb() {
+  return {
+      "report", "make one HTML page of one log or several", [](CLI::App& app) {
+        auto arguments = std::make_shared<ReportArguments>();
+        app.add_option("logs", arguments->logs, "logs; a verdict.json beside a log is shown too")->required();
+        app.add_option("--out", arguments->out, "file to write")->capture_default_str();
+        app.footer(
+            "Examples:\n"
+            "  ironbird report out/three_waypoints/flight.mcap\n"
+            "  ironbird report out/three_waypoints/flight.mcap out/three_waypoints_ode/flight.mcap --out "
+            "both.html");
+        return [arguments](const autopilot::Modules&) { return report(*arguments); };
+      }};
+}
+
+}  // namespace ironbird::scenarios
