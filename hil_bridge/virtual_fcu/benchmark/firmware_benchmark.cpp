@@ -42,8 +42,7 @@ class Flight {
     sent_.clear();
     if (idle_pass) {
       board_.clear_inputs();
-      command_[0] =
-          rosflight::OffboardControl{.u = {0, 0, -34.0F, 0.1F, -0.1F, 0.02F}, .ignore = 0, .mode = mode_};
+      command_[0] = command();
       board_.received = command_;
       if (tick_ % 4 == 0) board_.rc = frame();
       firmware_.pass(board_);
@@ -57,6 +56,12 @@ class Flight {
   bool armed() const { return firmware_.arming().armed(); }
 
  private:
+  /// Forces and torques, or angles and throttle.
+  rosflight::OffboardControl command() const {
+    if (mode_ == 0) return {.u = {0, 0, -34.0F, 0.1F, -0.1F, 0.02F}, .ignore = 0, .mode = 0};
+    return {.u = {0, 0, 0.45F, 0.1F, -0.1F, 0.02F}, .ignore = 0, .mode = mode_};
+  }
+
   RcFrame frame() const {
     RcFrame frame;
     frame.channels.fill(0.5F);
