@@ -9,9 +9,6 @@ namespace ironbird::simulator {
 
 namespace {
 
-/// Height of the centre of mass, m, below which the plant steps finely.
-constexpr double kNearGround = 1.0;
-
 /// How long the vehicle may take to come to rest on the ground.
 constexpr Time kSettlingTime = std::chrono::milliseconds(500);
 
@@ -105,9 +102,8 @@ void World::step_plant() {
 }
 
 std::int64_t World::plant_steps() const {
-  const bool near = plant_->in_contact() || -plant_->state().p_NB_N.z() < kNearGround;
   const double longest = plant_->contact_step();
-  if (!near || seconds(tick_) <= longest) return 1;
+  if (seconds(tick_) <= longest) return 1;
   // The fewest equal steps, each a whole number of nanoseconds and none longer than the engine likes.
   constexpr double kRoundOff = 1e-9;
   std::int64_t steps = static_cast<std::int64_t>(std::ceil(seconds(tick_) / longest - kRoundOff));

@@ -33,8 +33,9 @@ struct WorldConfig {
 
 /// One vehicle in one environment: steps the plant, samples the sensors, applies faults.
 ///
-/// In every tick: environment, plant, truth, sensors, in this order. Near the ground the plant takes several
-/// equal steps per tick, as many as its contact asks for; the rest of the world does not notice.
+/// In every tick: environment, plant, truth, sensors, in this order. Near the ground and obstacles the plant
+/// takes several equal steps per tick, as many as its contact asks for; the rest of the world does not
+/// notice.
 class World {
  public:
   /// Puts the vehicle on the ground and lets it come to rest, which takes no time of the run; with a plant

@@ -11,7 +11,8 @@ namespace ironbird::autopilot {
 /// Turns a setpoint at any of the twelve entry points into a command for the FCU, and owns the flight phase.
 class Controller : public Module {
  public:
-  /// One step. Non-finite commands are replaced by SilenceCommand and counted.
+  /// One step. Non-finite commands are replaced by SilenceCommand and counted; a
+  /// non-finite setpoint is taken as none.
   /// @param setpoint  what to fly in the offboard phase
   /// @param landing   the trajectory has come to a landing waypoint: begin the descent
   /// @return the command; valid until the next call
@@ -30,6 +31,9 @@ class Controller : public Module {
   int withheld_commands() const { return withheld_commands_; }
 
   void reset() override;
+
+  /// Starts in the phase that the predecessor was in.
+  void take_over(const Signals& signals) override;
 
  protected:
   /// The work. Sets `phase` to the phase that it was in.

@@ -9,14 +9,20 @@ namespace ironbird::autopilot {
 /// Turns sensor frames into a state estimate, once per IMU sample.
 class Estimator : public Module {
  public:
-  /// One step. Refuses frames that are older than the last, and keeps the last finite estimate, marked lost,
-  /// when the work function returns one that is not finite.
+  /// One step. Refuses frames that are older than the last. Drops samples that are not finite or physically
+  /// absurd: a slower sensor is then silent, the IMU keeps its last good sample and the estimate is marked
+  /// degraded. Keeps the last finite estimate, marked lost, when the work function returns one that is not
+  /// finite. With a period, the IMU samples between two works are averaged, and the newest sample of each
+  /// slower sensor waits for the next work.
   /// @param frame  frames in stamp order
-  /// @return the estimate at the frame's IMU stamp; valid until the next call
+  /// @return the estimate at the stamp of the last work; valid until the next call
   const StateEstimate& run(const SensorFrame& frame);
 
   /// How often `run` was given a frame that was older than the one before, and refused it.
   int refused_frames() const { return refused_frames_; }
+
+  /// How many samples were dropped because they were not finite or absurd.
+  int dropped_samples() const { return dropped_samples_; }
 
   /// How often the work function returned an estimate that was not finite.
   int non_finite_estimates() const { return non_finite_estimates_; }
@@ -29,11 +35,20 @@ class Estimator : public Module {
   virtual StateEstimate estimate(const SensorFrame& frame, double dt) = 0;
 
  private:
+  void collect(const SensorFrame& frame);
+
   StateEstimate last_;
   SensorFrame vetted_;
+  Vector3 f_sum_B_ = Vector3::Zero();
+  Vector3 w_sum_B_ = Vector3::Zero();
+  int imu_count_ = 0;
+  bool imu_known_ = false;
+  bool imu_held_ = false;
   Divider divider_;
+  Time newest_{0};
   bool started_ = false;
   int refused_frames_ = 0;
+  int dropped_samples_ = 0;
   int non_finite_estimates_ = 0;
 };
 

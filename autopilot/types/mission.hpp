@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -38,6 +39,9 @@ struct GeodeticPosition {
   }
 };
 
+/// The most waypoints that a route holds, so that no tick ever needs more memory than was set aside.
+inline constexpr std::size_t kMostWaypoints = 256;
+
 /// A place to fly to and what to do there. Given either in N or on the earth; the planner fills `p_N` from
 /// `geodetic`.
 struct Waypoint {
@@ -48,6 +52,7 @@ struct Waypoint {
   double speed = 0.0;
   double hold_time = 0.0;
   bool hold_indefinitely = false;
+  std::uint32_t id = 0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -59,6 +64,7 @@ struct Waypoint {
           50.0);
     visit("hold_time", self.hold_time, "s", "how long a hold lasts", 0.0, 86400.0);
     visit("hold_indefinitely", self.hold_indefinitely, "1", "a hold lasts until released");
+    visit("id", self.id, "1", "the planner's number of it, never used twice; set by the planner");
   }
 };
 
@@ -66,6 +72,8 @@ struct Waypoint {
 struct Route {
   std::uint32_t revision = 0;
   std::uint32_t released = 0;
+  std::uint32_t holds = 0;
+  std::optional<double> hold_time;
   bool cyclic = false;
   std::vector<Waypoint> waypoints;
 
@@ -73,6 +81,8 @@ struct Route {
   static void describe(Self& self, Visit&& visit) {
     visit("revision", self.revision, "1", "raised by every change");
     visit("released", self.released, "1", "how often a hold was released by request");
+    visit("holds", self.holds, "1", "how often a hold on the spot was requested");
+    visit("hold_time", self.hold_time, "s", "how long the last of these lasts; none: until released");
     visit("cyclic", self.cyclic, "1", "after the last waypoint comes the first");
     visit("waypoints", self.waypoints, "", "in order of flight");
   }

@@ -18,8 +18,18 @@ function(ironbird_library)
   set(target ironbird_${arg_NAME})
   add_library(${target} STATIC ${arg_SOURCES})
   add_library(ironbird::${arg_NAME} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME ${arg_NAME})
+  set_property(GLOBAL APPEND PROPERTY IRONBIRD_LIBRARIES ${target})
   target_link_libraries(${target} PUBLIC ironbird_options ${arg_LINKS})
+endfunction()
+
+# Writes the package files by which a program outside this tree finds the libraries in the build folder:
+# find_package(ironbird PATHS .../build/release). Called once, last.
+function(ironbird_export)
+  get_property(libraries GLOBAL PROPERTY IRONBIRD_LIBRARIES)
+  set_target_properties(ironbird_options PROPERTIES EXPORT_NAME options)
+  export(TARGETS ironbird_options ${libraries} NAMESPACE ironbird:: FILE ${PROJECT_BINARY_DIR}/ironbird-targets.cmake)
+  configure_file(${PROJECT_SOURCE_DIR}/ci/cmake/ironbird-config.cmake.in ${PROJECT_BINARY_DIR}/ironbird-config.cmake @ONLY)
 endfunction()
 
 # ironbird_test(NAME estimator SOURCES ekf_test.cpp ... LINKS ironbird::autopilot [LABELS slow] [WHOLE])

@@ -41,13 +41,16 @@ Vector3 vector_of(const dReal* v) {
 }  // namespace
 
 OdeBody::OdeBody(const ContactParams& vehicle, const FieldParams& field)
-    : world_(dWorldCreate()),
+    : threading_(dThreadingAllocateSelfThreadedImplementation()),
+      world_(dWorldCreate()),
       body_(dBodyCreate(world_)),
       shapes_(dSimpleSpaceCreate(nullptr)),
       obstacles_(dSimpleSpaceCreate(nullptr)),
       contacts_(dJointGroupCreate(0)),
       friction_(vehicle.friction),
       feet_(static_cast<int>(vehicle.feet.size())) {
+  // Left alone all worlds share one queue of jobs, and two threads must not step at once.
+  dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_), threading_);
   dBodySetFiniteRotationMode(body_, 1);
   dBodySetAutoDisableFlag(body_, 0);
   add_obstacles(field);
@@ -59,6 +62,7 @@ OdeBody::~OdeBody() {
   dSpaceDestroy(shapes_);
   dSpaceDestroy(obstacles_);
   dWorldDestroy(world_);
+  dThreadingFreeImplementation(threading_);
 }
 
 void OdeBody::add_obstacles(const FieldParams& field) {

@@ -35,6 +35,7 @@ class OdeBody {
   void add_shapes(const ContactParams& vehicle);
   int find_contacts_between(dGeomID shape, dGeomID obstacle, const dSurfaceParameters& surface);
 
+  dThreadingImplementationID threading_;
   dWorldID world_;
   dBodyID body_;
   dSpaceID shapes_;

@@ -119,7 +119,7 @@ class OdePlant final : public Plant {
     const Vector3 reached_w_N = state_.q_NB * state_.w_NB_B;
     state_.p_NB_N -= 0.5 * dt * (state_.v_NB_N - before.v_NB_N);
     state_.q_NB = (turn(-0.5 * dt * (reached_w_N - w_N)) * state_.q_NB).normalized();
-    state_.w_NB_B = q_next.conjugate() * reached_w_N;
+    state_.w_NB_B = state_.q_NB.conjugate() * reached_w_N;
     body_.write(state_);
   }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "simulator/plant/plant.hpp"
 
 namespace ironbird::simulator {
@@ -15,6 +17,8 @@ class RigidBodyPlant final : public Plant {
   const RotorSpeeds& rotors() const override { return rotors_; }
   bool in_contact() const override { return false; }
   const char* failure() const override;
+  /// Any: there is nothing to touch.
+  double contact_step() const override { return std::numeric_limits<double>::infinity(); }
 
  private:
   MassProperties mass_;

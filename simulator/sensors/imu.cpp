@@ -6,11 +6,16 @@ namespace ironbird::simulator {
 
 namespace {
 
-/// Root of the sum over the rotors of speed to the fourth power, (rad/s)^2.
+/// Sum over the rotors of speed to the fourth power, (rad/s)^4.
 double unbalance(const Truth& truth) {
   double sum = 0.0;
   for (const double speed : truth.rotor_speed) sum += (speed * speed) * (speed * speed);
-  return std::sqrt(sum);
+  return sum;
+}
+
+/// Standard deviation of the chip's noise together with the rotors' vibration.
+double in_quadrature(double sigma, double vibration, double unbalanced) {
+  return std::sqrt(sigma * sigma + vibration * vibration * unbalanced);
 }
 
 }  // namespace
@@ -32,11 +37,11 @@ Vector3 Imu::specific_force_B(const Truth& truth) const {
 }
 
 ImuReading Imu::measure(const Truth& truth, Time now, const FaultState& faults, bool armed) {
-  const double vibration = unbalance(truth);
+  const double unbalanced = unbalance(truth);
   const bool noisy = armed || !params_.noise_only_when_armed;
   const double sigma_f =
-      noisy ? std::hypot(accelerometer_.white_sigma(), params_.accelerometer_vibration * vibration) : 0.0;
-  const double sigma_w = noisy ? std::hypot(gyro_.white_sigma(), params_.gyro_vibration * vibration) : 0.0;
+      noisy ? in_quadrature(accelerometer_.white_sigma(), params_.accelerometer_vibration, unbalanced) : 0.0;
+  const double sigma_w = noisy ? in_quadrature(gyro_.white_sigma(), params_.gyro_vibration, unbalanced) : 0.0;
 
   ImuReading reading;
   reading.taken = now;

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "simulator/sensors/check_bounds.hpp"
+#include "simulator/types/bounds.hpp"
 
 namespace ironbird::simulator {
 
@@ -53,7 +53,13 @@ void SensorChannel<Sensor>::sample(const Truth& truth, Time now, const FaultStat
   if (clock_.due(now)) {
     typename Sensor::Reading reading = sensor_.measure(truth, now, faults, armed);
     if (outage.non_finite) Sensor::Reading::describe(reading, Spoil());
-    if (!outage.dropout) line_.push(now + latency_, reading);
+    if (!outage.dropout) {
+      if (latency_ == Time::zero()) {
+        out = reading;
+        return;
+      }
+      line_.push(now + latency_, reading);
+    }
   }
   line_.pop(now, out);
 }
@@ -62,10 +68,12 @@ SensorSuite::SensorSuite(const SensorSuiteParams& params, const SensorSite& site
                          std::uint64_t seed) {
   if (tick <= Time::zero())
     throw std::invalid_argument("tick = " + std::to_string(tick.count()) + " ns, must be > 0");
-  SensorSuiteParams::describe(params, BoundsCheck("sensors"));
-  if (params.range_finder.maximum < params.range_finder.minimum) {
-    require_within("sensors.range_finder.maximum", params.range_finder.maximum, "m",
-                   params.range_finder.minimum, std::numeric_limits<double>::max());
+  check_bounds(params, "sensors");
+  if (params.range_finder.maximum <= params.range_finder.minimum) {
+    std::ostringstream message;
+    message << "sensors.range_finder.maximum = " << params.range_finder.maximum
+            << " m, must be > minimum = " << params.range_finder.minimum << " m";
+    throw std::invalid_argument(message.str());
   }
   imu_ = make_channel<Imu>(params.imu, site, tick, seed, "sensors.imu");
   magnetometer_ = make_channel<Magnetometer>(params.magnetometer, site, tick, seed, "sensors.magnetometer");

@@ -7,7 +7,9 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace ironbird::simulator {
@@ -32,6 +34,12 @@ class BoundsCheck {
       Value::describe(value, BoundsCheck(path));
     } else if constexpr (std::is_arithmetic_v<Value>) {
       examine_number(path, static_cast<double>(value), unit, lower, upper);
+    } else if constexpr (requires { value.has_value(); }) {
+      if (value) examine(path, *value, unit, lower, upper);
+    } else if constexpr (requires { value.reshaped(); }) {
+      for (int i = 0; i < value.size(); ++i) {
+        examine(path + "[" + std::to_string(i) + "]", value.reshaped()[i], unit, lower, upper);
+      }
     } else if constexpr (requires { value.begin(), value.end(); } && !std::is_same_v<Value, std::string>) {
       int index = 0;
       for (const auto& item : value) {
@@ -44,7 +52,9 @@ class BoundsCheck {
                              double upper) {
     if (std::isfinite(value) && value >= lower && value <= upper) return;
     std::ostringstream text;
-    text << path << " = " << value << ' ' << unit << ", must be ";
+    text << path << " = " << value;
+    if (std::string_view(unit) != "1") text << ' ' << unit;
+    text << ", must be ";
     if (std::isfinite(lower) || std::isfinite(upper)) {
       text << "between " << lower << " and " << upper;
     } else {

@@ -1,0 +1,147 @@
+#include "autopilot/autopilot.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "autopilot/math/finite.hpp"
+
+namespace ironbird::autopilot {
+
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  return all;
+}
+
+template <class Base>
+std::string unknown_kind(const std::string& slot, const std::string& kind, const Registry<Base>& registry) {
+  return slot + ".kind = \"" + kind + "\" is unknown; there are: " + joined(registry.names());
+}
+
+/// A new module of `slot.kind`, told its period, with its parameters in the table. Null when there is no such
+/// kind.
+template <class Base>
+std::unique_ptr<Base> made(const std::string& name, const AutopilotConfig::Slot& slot,
+                           const Registry<Base>& registry, ParameterTable& table) {
+  std::unique_ptr<Base> module = registry.make(slot.kind);
+  if (module == nullptr) return module;
+  module->set_period(slot.period);
+  table.remove(name);
+  module->register_parameters(table, name);
+  return module;
+}
+
+template <class Base>
+std::unique_ptr<Base> required(const std::string& name, const AutopilotConfig::Slot& slot,
+                               const Registry<Base>& registry, ParameterTable& table) {
+  if (slot.period < Time{0}) {
+    throw std::invalid_argument(name + ".period = " + std::to_string(slot.period.count()) +
+                                " ns, must be >= 0");
+  }
+  std::unique_ptr<Base> module = made(name, slot, registry, table);
+  if (module == nullptr) throw std::invalid_argument(unknown_kind(name, slot.kind, registry));
+  return module;
+}
+
+template <class Base>
+RequestOutcome exchange(std::unique_ptr<Base>& place, AutopilotConfig::Slot& slot, const SwapModule& wish,
+                        const Registry<Base>& registry, ParameterTable& table, const Signals& signals) {
+  std::unique_ptr<Base> newcomer = made(wish.slot, {wish.kind, slot.period}, registry, table);
+  if (newcomer == nullptr) return {false, unknown_kind(wish.slot, wish.kind, registry)};
+  newcomer->take_over(signals);
+  place = std::move(newcomer);
+  slot.kind = wish.kind;
+  return {true, ""};
+}
+
+std::string_view name_of(SetOutcome outcome) {
+  for (const auto& [value, name] : enumerators(outcome)) {
+    if (value == outcome) return name;
+  }
+  return "";
+}
+
+RequestOutcome set_parameter(ParameterTable& table, const SetParameter& wish) {
+  const SetOutcome outcome = table.set(wish.path, wish.value);
+  if (outcome == SetOutcome::kAccepted) return {true, ""};
+  std::string reason = wish.path + ": " + std::string(name_of(outcome));
+  if (const ParameterSlot* slot = table.find(wish.path);
+      slot != nullptr && outcome == SetOutcome::kOutOfBounds) {
+    reason += ", must be within " + std::to_string(slot->lower) + " and " + std::to_string(slot->upper) +
+              " " + slot->unit;
+  }
+  return {false, reason};
+}
+
+}  // namespace
+
+Autopilot::Autopilot(const AutopilotConfig& config, const Modules& modules)
+    : modules_(modules), config_(config) {
+  estimator_ = required("estimator", config.estimator, modules.estimators, parameters_);
+  path_planner_ = required("path_planner", config.path_planner, modules.path_planners, parameters_);
+  path_manager_ = required("path_manager", config.path_manager, modules.path_managers, parameters_);
+  trajectory_follower_ =
+      required("trajectory_follower", config.trajectory_follower, modules.trajectory_followers, parameters_);
+  controller_ = required("controller", config.controller, modules.controllers, parameters_);
+  signals_.route.waypoints.reserve(kMostWaypoints);
+}
+
+Autopilot::~Autopilot() = default;
+
+const FcuCommand& Autopilot::step(const SensorFrame& frame) {
+  Signals& s = signals_;
+  s.sensors = frame;
+  if (frame.status) s.flight.fcu = *frame.status;
+  s.flight.phase = controller_->phase();
+  s.estimate = estimator_->run(frame);
+  const Route& route = path_planner_->run(s.estimate, s.flight);
+  if (route.revision != route_revision_ || route.released != s.route.released) s.route = route;
+  route_revision_ = route.revision;
+  FlightStatus offered = s.flight;
+  // While an operator's setpoint flies, manager and follower wait as they do when the pilot flies.
+  if (override_ && offered.phase == FlightPhase::kOffboard) offered.phase = FlightPhase::kHold;
+  s.trajectory = path_manager_->run(route, s.estimate, offered);
+  s.setpoint = trajectory_follower_->run(s.trajectory, s.estimate, offered);
+  if (override_) s.setpoint = *override_;
+  s.command = controller_->run(s.setpoint, s.trajectory.landing && !override_, s.estimate, s.flight.fcu);
+  return s.command;
+}
+
+RequestOutcome Autopilot::request(const Request& request) {
+  if (const auto* wish = std::get_if<RouteRequest>(&request)) {
+    if (path_planner_->request(*wish, signals_.estimate)) return {true, ""};
+    return {false, "the path planner cannot do this with the present route"};
+  }
+  if (const auto* wish = std::get_if<SetParameter>(&request)) return set_parameter(parameters_, *wish);
+  if (const auto* wish = std::get_if<SwapModule>(&request)) return swap(*wish);
+  if (const auto* wish = std::get_if<OverrideSetpoint>(&request)) {
+    if (wish->setpoint && !all_finite(*wish->setpoint)) return {false, "the setpoint is not finite"};
+    override_ = wish->setpoint;
+    return {true, ""};
+  }
+  if (std::holds_alternative<TakeOff>(request)) controller_->request_take_off();
+  if (std::holds_alternative<Land>(request)) controller_->request_landing();
+  return {true, ""};
+}
+
+RequestOutcome Autopilot::swap(const SwapModule& wish) {
+  signals_.flight.phase = controller_->phase();
+  const auto into = [&](auto& place, AutopilotConfig::Slot& slot, const auto& registry) {
+    return exchange(place, slot, wish, registry, parameters_, signals_);
+  };
+  if (wish.slot == "estimator") return into(estimator_, config_.estimator, modules_.estimators);
+  if (wish.slot == "path_planner") return into(path_planner_, config_.path_planner, modules_.path_planners);
+  if (wish.slot == "path_manager") return into(path_manager_, config_.path_manager, modules_.path_managers);
+  if (wish.slot == "trajectory_follower") {
+    return into(trajectory_follower_, config_.trajectory_follower, modules_.trajectory_followers);
+  }
+  if (wish.slot == "controller") return into(controller_, config_.controller, modules_.controllers);
+  return {
+      false,
+      "slot \"" + wish.slot +
+          "\" is unknown; there are: controller, estimator, path_manager, path_planner, trajectory_follower"};
+}
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,202 @@
+#include "autopilot/controller/cascade.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "autopilot/math/angles.hpp"
+
+namespace ironbird::autopilot {
+
+namespace {
+
+constexpr double kSmallestCosine = 0.5;  // of the tilt, where thrust makes up for it: 60 degrees
+constexpr double kSmallestLift = 0.1;    // share of gravity, so that an acceleration always has an attitude
+
+double limited(double value, double limit) {
+  return std::clamp(value, -limit, limit);
+}
+
+}  // namespace
+
+void Cascade::set_params(const CascadeParams& p) {
+  params_ = p;
+  const auto set = [&](Loop loop, const PidGains& gains, double lower, double upper) {
+    loops_[loop].configure(gains, p.derivative_time_constant, lower, upper);
+  };
+  set(kPosN, p.pos_n_to_vel, -p.max_horizontal_speed, p.max_horizontal_speed);
+  set(kPosE, p.pos_e_to_vel, -p.max_horizontal_speed, p.max_horizontal_speed);
+  set(kPosD, p.pos_d_to_vel, -p.max_climb_speed, p.max_descent_speed);
+  set(kVelN, p.vel_n_to_accel, -p.max_horizontal_acceleration, p.max_horizontal_acceleration);
+  set(kVelE, p.vel_e_to_accel, -p.max_horizontal_acceleration, p.max_horizontal_acceleration);
+  set(kVelD, p.vel_d_to_accel, -p.max_climb_acceleration, p.max_descent_acceleration);
+  set(kYawToRate, p.yaw_to_rate, -p.max_yaw_rate, p.max_yaw_rate);
+  set(kRoll, p.roll_to_torque, -p.max_roll_torque, p.max_roll_torque);
+  set(kPitch, p.pitch_to_torque, -p.max_pitch_torque, p.max_pitch_torque);
+  set(kYaw, p.yaw_to_torque, -p.max_yaw_torque, p.max_yaw_torque);
+  set(kRollRate, p.roll_rate_to_torque, -p.max_roll_torque, p.max_roll_torque);
+  set(kPitchRate, p.pitch_rate_to_torque, -p.max_pitch_torque, p.max_pitch_torque);
+  set(kYawRate, p.yaw_rate_to_torque, -p.max_yaw_torque, p.max_yaw_torque);
+}
+
+FcuCommand Cascade::fly(const ControlSetpoint& setpoint, const StateEstimate& estimate, const Step& step) {
+  estimate_ = &estimate;
+  step_ = step;
+  lift_ = 0.0;
+  used_.fill(false);
+  const FcuCommand command = std::visit([this](const auto& entry) { return enter(entry); }, setpoint);
+  for (std::size_t i = 0; i < loops_.size(); ++i) {
+    if (!used_[i]) {
+      loops_[i].reset();
+    } else if (!step.integrate) {
+      loops_[i].reset_integral();
+    }
+  }
+  estimate_ = nullptr;
+  return command;
+}
+
+void Cascade::reset() {
+  for (Pid& loop : loops_) loop.reset();
+  lift_ = 0.0;
+}
+
+double Cascade::run(Loop loop, double error, double rate) {
+  used_[loop] = true;
+  return loops_[loop].run(error, rate, step_.dt, step_.integrate);
+}
+
+double Cascade::run_filtered(Loop loop, double error, double measurement) {
+  used_[loop] = true;
+  return loops_[loop].run_filtered(error, measurement, step_.dt, step_.integrate);
+}
+
+double Cascade::yaw_rate_for(double heading) {
+  return run(kYawToRate, shortest_difference(heading, estimate_->heading), estimate_->w_NB_B.z());
+}
+
+bool Cascade::near_ground() const {
+  return std::abs(estimate_->p_NB_N.z()) < params_.min_altitude_for_attitude_control;
+}
+
+FcuCommand Cascade::enter(const PositionHeading& s) {
+  const Vector3 error_N = s.p_N - estimate_->p_NB_N;
+  const Vector3 v_NB_N = estimate_->v_NB_N();
+  VelocityHeadingRate next;
+  next.v_N << run(kPosN, error_N.x(), v_NB_N.x()), run(kPosE, error_N.y(), v_NB_N.y()),
+      run(kPosD, error_N.z(), v_NB_N.z());
+  next.heading_rate = yaw_rate_for(s.heading);
+  return enter(next);
+}
+
+FcuCommand Cascade::enter(const VelocityHeightHeadingRate& s) {
+  VelocityHeadingRate next;
+  next.v_N << s.v_N, run(kPosD, s.down - estimate_->p_NB_N.z(), estimate_->v_NB_N().z());
+  next.heading_rate = s.heading_rate;
+  return enter(next);
+}
+
+FcuCommand Cascade::enter(const PositionClimbHeading& s) {
+  const Vector2 error_N = s.p_N - estimate_->p_NB_N.head<2>();
+  const Vector3 v_NB_N = estimate_->v_NB_N();
+  VelocityHeadingRate next;
+  next.v_N << run(kPosN, error_N.x(), v_NB_N.x()), run(kPosE, error_N.y(), v_NB_N.y()), s.v_down;
+  next.heading_rate = yaw_rate_for(s.heading);
+  return enter(next);
+}
+
+FcuCommand Cascade::enter(const VelocityHeadingRate& s) {
+  const Vector3 v_NB_N = estimate_->v_NB_N();
+  const double north = run_filtered(kVelN, s.v_N.x() - v_NB_N.x(), v_NB_N.x());
+  const double east = run_filtered(kVelE, s.v_N.y() - v_NB_N.y(), v_NB_N.y());
+  const double down = run_filtered(kVelD, s.v_N.z() - v_NB_N.z(), v_NB_N.z());
+  const double c = std::cos(estimate_->heading);
+  const double sine = std::sin(estimate_->heading);
+  AccelerationHeadingRate next;
+  next.a_V << c * north + sine * east, c * east - sine * north, down;
+  next.heading_rate = s.heading_rate;
+  return enter(next);
+}
+
+FcuCommand Cascade::enter(const AccelerationHeadingRate& s) {
+  const double lift = std::max(params_.gravity - s.a_V.z(), kSmallestLift * params_.gravity);  // m/s^2
+  const double magnitude = std::sqrt(s.a_V.x() * s.a_V.x() + s.a_V.y() * s.a_V.y() + lift * lift);
+  const double roll = std::asin(s.a_V.y() / magnitude);
+  const double pitch = std::atan2(-s.a_V.x(), lift);
+  const double upright = std::max(std::cos(estimate_->roll) * std::cos(estimate_->pitch), kSmallestCosine);
+  if (step_.thrust_in_newtons) {
+    return enter(AngleHeadingRateThrust{roll, pitch, s.heading_rate, params_.mass * lift / upright});
+  }
+  const double throttle = params_.equilibrium_throttle * lift / params_.gravity / upright;
+  return enter(AngleHeadingRateThrottle{roll, pitch, s.heading_rate, throttle});
+}
+
+FcuCommand Cascade::enter(const AngleHeadingThrottle& s) {
+  return enter(AngleHeadingRateThrottle{s.roll, s.pitch, yaw_rate_for(s.heading), s.throttle});
+}
+
+FcuCommand Cascade::enter(const AngleHeadingRateThrottle& s) {
+  AngleCommand command;
+  command.throttle = std::clamp(s.throttle, params_.min_throttle, params_.max_throttle);
+  lift_ = command.throttle / params_.equilibrium_throttle;
+  if (near_ground()) return command;
+  command.roll = limited(s.roll, params_.max_roll);
+  command.pitch = limited(s.pitch, params_.max_pitch);
+  command.heading_rate = limited(s.heading_rate, params_.max_yaw_rate);
+  return command;
+}
+
+FcuCommand Cascade::enter(const RateThrottle& s) {
+  RateCommand command;
+  command.throttle = std::clamp(s.throttle, params_.min_throttle, params_.max_throttle);
+  lift_ = command.throttle / params_.equilibrium_throttle;
+  if (near_ground()) return command;
+  command.w_NB_B << limited(s.w_NB_B.x(), params_.max_roll_rate),
+      limited(s.w_NB_B.y(), params_.max_pitch_rate), limited(s.w_NB_B.z(), params_.max_yaw_rate);
+  return command;
+}
+
+FcuCommand Cascade::enter(const TorqueThrust& s) {
+  PassThroughCommand command;
+  command.thrust = std::clamp(s.thrust, params_.min_thrust, params_.max_thrust);
+  lift_ = command.thrust / (params_.mass * params_.gravity);
+  if (near_ground()) return command;
+  command.M_B << limited(s.M_B.x(), params_.max_roll_torque), limited(s.M_B.y(), params_.max_pitch_torque),
+      limited(s.M_B.z(), params_.max_yaw_torque);
+  return command;
+}
+
+FcuCommand Cascade::enter(const AngleHeadingThrust& s) {
+  const Vector3& w_NB_B = estimate_->w_NB_B;
+  TorqueThrust next;
+  next.M_B << run(kRoll, limited(s.roll, params_.max_roll) - estimate_->roll, w_NB_B.x()),
+      run(kPitch, limited(s.pitch, params_.max_pitch) - estimate_->pitch, w_NB_B.y()),
+      run(kYaw, shortest_difference(s.heading, estimate_->heading), w_NB_B.z());
+  next.thrust = s.thrust;
+  return enter(next);
+}
+
+FcuCommand Cascade::enter(const AngleHeadingRateThrust& s) {
+  const Vector3& w_NB_B = estimate_->w_NB_B;
+  const double heading_rate = limited(s.heading_rate, params_.max_yaw_rate);
+  TorqueThrust next;
+  next.M_B << run(kRoll, limited(s.roll, params_.max_roll) - estimate_->roll, w_NB_B.x()),
+      run(kPitch, limited(s.pitch, params_.max_pitch) - estimate_->pitch, w_NB_B.y()),
+      run_filtered(kYawRate, heading_rate - w_NB_B.z(), w_NB_B.z());
+  next.thrust = s.thrust;
+  return enter(next);
+}
+
+FcuCommand Cascade::enter(const RateThrust& s) {
+  const Vector3& w_NB_B = estimate_->w_NB_B;
+  const Vector3 wanted_B(limited(s.w_NB_B.x(), params_.max_roll_rate),
+                         limited(s.w_NB_B.y(), params_.max_pitch_rate),
+                         limited(s.w_NB_B.z(), params_.max_yaw_rate));
+  TorqueThrust next;
+  next.M_B << run_filtered(kRollRate, wanted_B.x() - w_NB_B.x(), w_NB_B.x()),
+      run_filtered(kPitchRate, wanted_B.y() - w_NB_B.y(), w_NB_B.y()),
+      run_filtered(kYawRate, wanted_B.z() - w_NB_B.z(), w_NB_B.z());
+  next.thrust = s.thrust;
+  return enter(next);
+}
+
+}  // namespace ironbird::autopilot

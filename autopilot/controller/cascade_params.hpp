@@ -1,0 +1,109 @@
+#pragma once
+
+#include "autopilot/math/pid.hpp"
+
+namespace ironbird::autopilot {
+
+/// Gains and limits of the cascade. Gains of the torque loops: the robust set tuned for the X650 with matched
+/// thrust.
+struct CascadeParams {
+  double mass = 3.9;
+  double gravity = 9.81;
+  double derivative_time_constant = 0.05;
+  int acceleration_output = 1;
+  double equilibrium_throttle = 0.5;
+  double min_throttle = 0.05;
+  double max_throttle = 0.95;
+  double min_thrust = 2.0;
+  double max_thrust = 80.0;
+  double max_roll = 0.7;
+  double max_pitch = 0.7;
+  double max_roll_rate = 4.0;
+  double max_pitch_rate = 4.0;
+  double max_yaw_rate = 2.0;
+  double max_roll_torque = 5.0;
+  double max_pitch_torque = 5.0;
+  double max_yaw_torque = 1.0;
+  double max_horizontal_speed = 5.0;
+  double max_climb_speed = 3.0;
+  double max_descent_speed = 2.0;
+  double max_horizontal_acceleration = 5.0;
+  double max_climb_acceleration = 8.0;
+  double max_descent_acceleration = 5.0;
+  double min_altitude_for_attitude_control = 0.0;
+  PidGains pos_n_to_vel{1.0, 0.0, 0.0};
+  PidGains pos_e_to_vel{1.0, 0.0, 0.0};
+  PidGains pos_d_to_vel{1.2, 0.0, 0.0};
+  PidGains vel_n_to_accel{2.2, 0.3, 0.0};
+  PidGains vel_e_to_accel{2.2, 0.3, 0.0};
+  PidGains vel_d_to_accel{4.0, 1.0, 0.0};
+  PidGains yaw_to_rate{3.3, 0.0, 0.25};
+  PidGains roll_to_torque{3.89, 0.47, 0.76};
+  PidGains pitch_to_torque{3.89, 0.47, 0.76};
+  PidGains yaw_to_torque{2.0, 0.02, 1.0};
+  PidGains roll_rate_to_torque{0.76, 0.5, 0.0};
+  PidGains pitch_rate_to_torque{0.76, 0.5, 0.0};
+  PidGains yaw_rate_to_torque{0.49, 0.0, 0.0};
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("mass", self.mass, "kg", "mass of the vehicle", 0.05, 100.0);
+    visit("gravity", self.gravity, "m/s^2", "gravitational acceleration", 1.0, 30.0);
+    visit("derivative_time_constant", self.derivative_time_constant, "s", "filter of the derivatives", 1e-3,
+          1.0);
+    visit("acceleration_output", self.acceleration_output, "1",
+          "entries 0 to 4 become: 0 angles and throttle for the FCU, 1 torque and thrust", 0.0, 1.0);
+    describe_limits(self, visit);
+    describe_gains(self, visit);
+  }
+
+ private:
+  template <class Self, class Visit>
+  static void describe_limits(Self& self, Visit& visit) {
+    visit("equilibrium_throttle", self.equilibrium_throttle, "1", "throttle that carries the weight", 0.05,
+          1.0);
+    visit("min_throttle", self.min_throttle, "1", "least throttle", 0.0, 1.0);
+    visit("max_throttle", self.max_throttle, "1", "greatest throttle", 0.0, 1.0);
+    visit("min_thrust", self.min_thrust, "N", "least thrust", 0.0, 1e4);
+    visit("max_thrust", self.max_thrust, "N", "greatest thrust", 0.1, 1e4);
+    visit("max_roll", self.max_roll, "rad", "greatest roll angle", 0.01, 1.55);
+    visit("max_pitch", self.max_pitch, "rad", "greatest pitch angle", 0.01, 1.55);
+    visit("max_roll_rate", self.max_roll_rate, "rad/s", "greatest roll rate", 0.01, 100.0);
+    visit("max_pitch_rate", self.max_pitch_rate, "rad/s", "greatest pitch rate", 0.01, 100.0);
+    visit("max_yaw_rate", self.max_yaw_rate, "rad/s", "greatest yaw rate", 0.01, 100.0);
+    visit("max_roll_torque", self.max_roll_torque, "N*m", "greatest roll torque", 0.0, 1e3);
+    visit("max_pitch_torque", self.max_pitch_torque, "N*m", "greatest pitch torque", 0.0, 1e3);
+    visit("max_yaw_torque", self.max_yaw_torque, "N*m", "greatest yaw torque", 0.0, 1e3);
+    visit("max_horizontal_speed", self.max_horizontal_speed, "m/s", "per axis, of the position loops", 0.1,
+          1e3);
+    visit("max_climb_speed", self.max_climb_speed, "m/s", "of the height loop", 0.1, 1e3);
+    visit("max_descent_speed", self.max_descent_speed, "m/s", "of the height loop", 0.1, 1e3);
+    visit("max_horizontal_acceleration", self.max_horizontal_acceleration, "m/s^2",
+          "per axis, of the velocity loops", 0.1, 1e3);
+    visit("max_climb_acceleration", self.max_climb_acceleration, "m/s^2", "of the vertical velocity loop",
+          0.1, 1e3);
+    visit("max_descent_acceleration", self.max_descent_acceleration, "m/s^2", "of the vertical velocity loop",
+          0.1, 9.0);
+    visit("min_altitude_for_attitude_control", self.min_altitude_for_attitude_control, "m",
+          "nearer than this to the origin's height no torque is asked for; 0: always", 0.0, 10.0);
+  }
+
+  template <class Self, class Visit>
+  static void describe_gains(Self& self, Visit& visit) {
+    visit("pos_n_to_vel", self.pos_n_to_vel, "", "position north to velocity");
+    visit("pos_e_to_vel", self.pos_e_to_vel, "", "position east to velocity");
+    visit("pos_d_to_vel", self.pos_d_to_vel, "", "position down to velocity");
+    visit("vel_n_to_accel", self.vel_n_to_accel, "", "velocity north to acceleration");
+    visit("vel_e_to_accel", self.vel_e_to_accel, "", "velocity east to acceleration");
+    visit("vel_d_to_accel", self.vel_d_to_accel, "", "velocity down to acceleration");
+    visit("yaw_to_rate", self.yaw_to_rate, "", "heading to yaw rate");
+    visit("roll_to_torque", self.roll_to_torque, "", "roll angle to torque");
+    visit("pitch_to_torque", self.pitch_to_torque, "", "pitch angle to torque");
+    visit("yaw_to_torque", self.yaw_to_torque, "", "heading to torque");
+    visit("roll_rate_to_torque", self.roll_rate_to_torque, "", "roll rate to torque");
+    visit("pitch_rate_to_torque", self.pitch_rate_to_torque, "", "pitch rate to torque");
+    visit("yaw_rate_to_torque", self.yaw_rate_to_torque, "", "yaw rate to torque");
+  }
+};
+
+}  // namespace ironbird::autopilot

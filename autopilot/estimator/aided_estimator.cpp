@@ -1,0 +1,279 @@
+#include "autopilot/estimator/aided_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "autopilot/math/euler_zyx.hpp"
+#include "autopilot/math/local_map.hpp"
+#include "autopilot/math/standard_atmosphere.hpp"
+#include "autopilot/signals.hpp"
+
+namespace ironbird::autopilot {
+
+namespace {
+
+constexpr double kLongestStep = 0.02;  // s, a longer gap between IMU samples is crossed in several steps
+constexpr double kLongestGap = 0.5;    // s, beyond this a held IMU sample says nothing
+constexpr double kImuSilence = 0.05;   // s
+constexpr double kSoonAgain = 15.0;    // s, between two resets of velocity or heading
+constexpr double kFreshFix = 1.0;      // s, a fix that may still replace a broken state
+
+}  // namespace
+
+void AidedEstimator::reset() {
+  Estimator::reset();
+  alignment_.reset();
+  running_ = false;
+  realigning_ = false;
+  seen_resets_ = 0;
+  last_reset_ = Time{0};
+  origin_ = LocalOrigin{};
+  baro_ = BaroModel{};
+  origin_pressure_.reset();
+  accelerometer_offset_B_.setZero();
+  w_filtered_B_.setZero();
+  rates_known_ = false;
+  delay_line_.clear();
+  gates_ = Gates{};
+  heard_ = Heard{};
+  previous_ = Time{0};
+  innovations_ = Innovations{};
+  last_fix_.reset();
+  last_good_ = StateEstimate{};
+  late_fixes_ = 0;
+  recoveries_ = 0;
+  realignments_ = 0;
+}
+
+void AidedEstimator::begin(const StartState& found, Time now) {
+  origin_ = found.origin;
+  accelerometer_offset_B_ = found.accelerometer_offset_B;
+  rebuild_baro_model();
+  delay_line_.clear();
+  heard_ = {now, now, now};
+  start(found);
+  running_ = true;
+}
+
+void AidedEstimator::rebuild_baro_model() {
+  const double given = aiding().baro.air_density;
+  baro_.gravity = aiding().gravity;
+  baro_.density = given > 0.0 ? given : standard_density(origin_.altitude);
+  baro_.density_gradient = given > 0.0 ? 0.0 : standard_density_gradient(origin_.altitude);
+}
+
+void AidedEstimator::take_over(const Signals& signals) {
+  const StateEstimate& last = signals.estimate;
+  if (last.health == Health::kUninitialised || !last.origin.known) return;
+  StartState found;
+  found.origin = last.origin;
+  found.p_NB_N = last.p_NB_N;
+  found.v_NB_N = last.v_NB_N();
+  found.q_NB = last.q_NB;
+  found.gyro_bias_B = last.gyro_bias_B;
+  found.moving = true;
+  origin_pressure_.reset();
+  begin(found, last.stamp);
+  previous_ = last.stamp;
+  last_good_ = last;
+}
+
+StateEstimate AidedEstimator::estimate(const SensorFrame& frame, double dt) {
+  const Time now = frame.imu.stamp;
+  // The module that was replaced may have run until just now.
+  const double step = running_ && previous_.count() > 0 ? seconds(now - previous_) : dt;
+  previous_ = now;
+  filter_rates(frame.imu.w_NB_B, step);
+  if (!running_) {
+    if (alignment_.add(frame, dt, aiding())) {
+      origin_pressure_ = alignment_.start().origin_pressure;
+      begin(alignment_.start(), now);
+    }
+  } else {
+    advance(frame.imu, step);
+    fuse(frame);
+    if (!is_finite()) recover(now);
+    realign_if_hopeless(frame, step);
+  }
+  StateEstimate out;
+  out.stamp = now;
+  out.w_NB_B = w_filtered_B_;
+  if (!running_) return out;
+  publish(out);
+  out.w_NB_B -= out.gyro_bias_B;
+  out.accelerometer_bias_B += accelerometer_offset_B_;
+  out.origin = origin_;
+  look_after(out, now, step);
+  return out;
+}
+
+void AidedEstimator::filter_rates(const Vector3& w_B, double dt) {
+  const double cutoff = aiding().gyro_cutoff;
+  if (!rates_known_ || cutoff <= 0.0) {
+    w_filtered_B_ = w_B;
+    rates_known_ = true;
+    return;
+  }
+  const double kept = std::exp(-2.0 * std::numbers::pi * cutoff * dt);
+  w_filtered_B_ = kept * w_filtered_B_ + (1.0 - kept) * w_B;
+}
+
+void AidedEstimator::advance(const ImuSample& imu, double dt) {
+  if (dt <= 0.0) return;
+  const double crossed = std::min(dt, kLongestGap);
+  const int steps = static_cast<int>(std::ceil(crossed / kLongestStep));
+  const Vector3 f_B = imu.f_B - accelerometer_offset_B_;
+  for (int i = 0; i < steps; ++i) predict(f_B, imu.w_NB_B, crossed / steps);
+  if (!aiding().gnss.latency_compensation) return;
+  const Kinematics here = kinematics();
+  delay_line_.push(imu.stamp, here.p_N, here.v_N);
+}
+
+template <class Correction>
+void AidedEstimator::tell_delay_line(Correction&& correction) {
+  if (!aiding().gnss.latency_compensation) {
+    correction();
+    return;
+  }
+  const Kinematics before = kinematics();
+  correction();
+  const Kinematics after = kinematics();
+  delay_line_.correct(after.p_N - before.p_N, after.v_N - before.v_N);
+}
+
+void AidedEstimator::fuse(const SensorFrame& frame) {
+  const Time now = frame.imu.stamp;
+  if (frame.mag) {
+    heard_.mag = now;
+    tell_delay_line([&] { correct_mag(frame.mag->m_B.normalized(), now); });
+  }
+  if (frame.baro) fuse_baro(*frame.baro, now);
+  if (frame.gnss && is_usable(frame.gnss->fix)) fuse_gnss(*frame.gnss, now);
+}
+
+void AidedEstimator::fuse_baro(const BaroSample& baro, Time now) {
+  heard_.baro = now;
+  rebuild_baro_model();
+  if (!origin_pressure_) {
+    // After a take-over: the pressure at height 0 is the one that makes this sample agree.
+    origin_pressure_ = baro.pressure + baro_.pressure_difference(kinematics().p_N.z());
+  }
+  tell_delay_line([&] { correct_baro(*origin_pressure_ - baro.pressure, now); });
+}
+
+void AidedEstimator::fuse_gnss(const GnssSample& gnss, Time now) {
+  const GnssParams& wanted = aiding().gnss;
+  const Kinematics present = kinematics();
+  Kinematics compared = present;
+  if (wanted.latency_compensation && gnss.stamp < now) {
+    const std::optional<DelayLine::Past> past = delay_line_.at(gnss.stamp);
+    if (!past) {
+      ++late_fixes_;
+      return;
+    }
+    compared = *past;
+  }
+  heard_.gnss = now;
+  GnssObservation fix;
+  fix.p_N = local_from_geodetic({gnss.latitude, gnss.longitude, gnss.altitude}, origin_);
+  fix.dp_N = fix.p_N - compared.p_N;
+  fix.dv_N = gnss.v_NB_N - compared.v_N;
+  fix.p_N += present.p_N - compared.p_N;
+  fix.v_N = gnss.v_NB_N + present.v_N - compared.v_N;
+  Vector3 sigma_p(wanted.sigma_horizontal, wanted.sigma_horizontal, wanted.sigma_vertical);
+  Vector3 sigma_v(wanted.sigma_velocity_horizontal, wanted.sigma_velocity_horizontal,
+                  wanted.sigma_velocity_vertical);
+  if (wanted.use_receiver_accuracy) {
+    const double horizontal = gnss.horizontal_accuracy;
+    sigma_p = sigma_p.cwiseMax(Vector3(horizontal, horizontal, gnss.vertical_accuracy));
+    sigma_v = sigma_v.cwiseMax(gnss.speed_accuracy);
+  }
+  fix.variance_p = sigma_p.cwiseProduct(sigma_p);
+  fix.variance_v = sigma_v.cwiseProduct(sigma_v);
+  innovations_.p_N = fix.dp_N;
+  innovations_.v_N = fix.dv_N;
+  last_fix_ = fix;
+  tell_delay_line([&] { correct_gnss(fix, now); });
+}
+
+void AidedEstimator::recover(Time now) {
+  ++recoveries_;
+  StartState again;
+  again.origin = origin_;
+  again.moving = true;
+  again.p_NB_N = last_good_.p_NB_N;
+  again.v_NB_N = last_good_.v_NB_N();
+  again.q_NB = last_good_.q_NB;
+  again.gyro_bias_B = last_good_.gyro_bias_B;
+  if (last_fix_ && seconds(now - heard_.gnss) < kFreshFix) {
+    again.p_NB_N.head<2>() = last_fix_->p_N.head<2>();
+    again.v_NB_N = last_fix_->v_N;
+  }
+  start(again);
+  delay_line_.clear();
+}
+
+void AidedEstimator::realign_if_hopeless(const SensorFrame& frame, double dt) {
+  const Time now = frame.imu.stamp;
+  const int resets = gates_.velocity.resets() + gates_.mag.resets();
+  if (resets > seen_resets_) {
+    // One reset may be the sensor's fault. A second one soon after means that the attitude is wrong.
+    if (seen_resets_ > 0 && seconds(now - last_reset_) < kSoonAgain && !realigning_) {
+      realigning_ = true;
+      alignment_.restart_in_motion();
+    }
+    seen_resets_ = resets;
+    last_reset_ = now;
+  }
+  if (!realigning_ || !alignment_.add(frame, dt, aiding())) return;
+  realigning_ = false;
+  ++realignments_;
+  StartState again = alignment_.start();
+  const GeodeticPosition place = geodetic_from_local(again.p_NB_N, again.origin);
+  again.p_NB_N.head<2>() = local_from_geodetic(place.latitude, place.longitude, origin_);
+  again.p_NB_N.z() = kinematics().p_N.z();  // the barometer has gone on correcting the height
+  again.origin = origin_;
+  again.accelerometer_offset_B = accelerometer_offset_B_;
+  again.moving = true;
+  start(again);
+  delay_line_.clear();
+}
+
+void AidedEstimator::look_after(StateEstimate& estimate, Time now, double dt) {
+  const AidingParams& wanted = aiding();
+  const bool silent = seconds(now - heard_.mag) > wanted.mag.silence ||
+                      seconds(now - heard_.baro) > wanted.baro.silence ||
+                      seconds(now - heard_.gnss) > wanted.gnss.silence || dt > kImuSilence;
+  const bool refusing = gates_.position.disagreeing() || gates_.velocity.disagreeing() ||
+                        gates_.baro.disagreeing() || gates_.mag.disagreeing() || realigning_;
+  const bool unsure = estimate.sigma_v_B.maxCoeff() > wanted.lost_speed;
+  estimate.health = unsure ? Health::kLost : (silent || refusing ? Health::kDegraded : Health::kGood);
+  last_good_ = estimate;
+}
+
+void AidedEstimator::probe(ProbeVisitor& visit) const {
+  visit("innovation_position", innovations_.p_N, "m");
+  visit("innovation_velocity", innovations_.v_N, "m/s");
+  visit("innovation_pressure", innovations_.pressure, "Pa");
+  visit("innovation_heading", innovations_.heading, "rad");
+  visit("nis_position", gates_.position.nis(), "1");
+  visit("nis_velocity", gates_.velocity.nis(), "1");
+  visit("nis_baro", gates_.baro.nis(), "1");
+  visit("nis_mag", gates_.mag.nis(), "1");
+  visit("rejected_position", gates_.position.rejected(), "1");
+  visit("rejected_velocity", gates_.velocity.rejected(), "1");
+  visit("rejected_baro", gates_.baro.rejected(), "1");
+  visit("rejected_mag", gates_.mag.rejected(), "1");
+  visit("resets",
+        gates_.position.resets() + gates_.velocity.resets() + gates_.baro.resets() + gates_.mag.resets(),
+        "1");
+  visit("late_fixes", late_fixes_, "1");
+  visit("recoveries", recoveries_, "1");
+  visit("realignments", realignments_, "1");
+  visit("accelerometer_offset", accelerometer_offset_B_, "m/s^2");
+  visit("origin_pressure", origin_pressure_.value_or(0.0), "Pa");
+  probe_filter(visit);
+}
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <optional>
+
+#include "autopilot/estimator/aiding_params.hpp"
+#include "autopilot/estimator/alignment.hpp"
+#include "autopilot/estimator/delay_line.hpp"
+#include "autopilot/estimator/estimator.hpp"
+#include "autopilot/estimator/gate.hpp"
+
+namespace ironbird::autopilot {
+
+/// Height from a pressure difference. The air's weight decreases with height as in the standard atmosphere.
+struct BaroModel {
+  double density = 1.225;
+  double density_gradient = 0.0;
+  double gravity = 9.81;
+
+  /// p(origin) - p(p_d), Pa: h of the barometer.
+  double pressure_difference(double p_d) const {
+    return -density * gravity * p_d * (1.0 - 0.5 * density_gradient * p_d);
+  }
+  /// Derivative of pressure_difference, Pa/m: C of the barometer.
+  double slope(double p_d) const { return -density * gravity * (1.0 - density_gradient * p_d); }
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("density", self.density, "kg/m^3", "of the air at the origin");
+    visit("density_gradient", self.density_gradient, "1/m", "relative change of density with height");
+    visit("gravity", self.gravity, "m/s^2", "acceleration of gravity");
+  }
+};
+
+/// A satellite fix in N, with the state that it is to be compared with.
+struct GnssObservation {
+  Vector3 p_N = Vector3::Zero();
+  Vector3 v_N = Vector3::Zero();
+  Vector3 dp_N = Vector3::Zero();
+  Vector3 dv_N = Vector3::Zero();
+  Vector3 variance_p = Vector3::Ones();
+  Vector3 variance_v = Vector3::Ones();
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("p_N", self.p_N, "m", "measured position, carried to the present");
+    visit("v_N", self.v_N, "m/s", "measured velocity, carried to the present");
+    visit("dp_N", self.dp_N, "m", "measured less predicted position, at the time of the fix");
+    visit("dv_N", self.dv_N, "m/s", "measured less predicted velocity, at the time of the fix");
+    visit("variance_p", self.variance_p, "m^2", "R of the position");
+    visit("variance_v", self.variance_v, "m^2/s^2", "R of the velocity");
+  }
+};
+
+/// What all inertial filters share: finding the start, the order predict, compass, barometer, satellites,
+/// late fixes, silence of sensors, recovery from a state that is not finite, health. A filter supplies the
+/// algebra.
+class AidedEstimator : public Estimator {
+ public:
+  void reset() override;
+  void probe(ProbeVisitor& visit) const override;
+
+  /// Starts from the estimate of the module it replaces. Height 0 of the barometer follows from its first
+  /// sample.
+  void take_over(const Signals& signals) override;
+
+  /// How often the state was not finite and was rebuilt.
+  int recoveries() const { return recoveries_; }
+
+  /// How often velocity or heading disagreed so often that the attitude was sought anew.
+  int realignments() const { return realignments_; }
+
+ protected:
+  /// Position and velocity in N.
+  using Kinematics = DelayLine::Past;
+
+  StateEstimate estimate(const SensorFrame& frame, double dt) final;
+
+  virtual const AidingParams& aiding() const = 0;
+  /// Sets state and covariance.
+  virtual void start(const StartState& start) = 0;
+  /// Carries state and covariance over dt, s, > 0, with specific force and gyro held.
+  virtual void predict(const Vector3& f_B, const Vector3& w_B, double dt) = 0;
+  virtual void correct_mag(const Vector3& m_B, Time now) = 0;
+  /// @param difference  pressure at the origin less the measured one, Pa
+  virtual void correct_baro(double difference, Time now) = 0;
+  virtual void correct_gnss(const GnssObservation& fix, Time now) = 0;
+  virtual Kinematics kinematics() const = 0;
+  /// State and variances are numbers.
+  virtual bool is_finite() const = 0;
+  /// Fills everything but stamp, rates, origin and health.
+  virtual void publish(StateEstimate& estimate) const = 0;
+  /// Names and values that only this filter has.
+  virtual void probe_filter(ProbeVisitor& visit) const = 0;
+
+  const BaroModel& baro_model() const { return baro_; }
+  Gate& position_gate() { return gates_.position; }
+  Gate& velocity_gate() { return gates_.velocity; }
+  Gate& baro_gate() { return gates_.baro; }
+  Gate& mag_gate() { return gates_.mag; }
+  /// Innovations of the last update, for probes.
+  struct Innovations {
+    Vector3 p_N = Vector3::Zero();  ///< m
+    Vector3 v_N = Vector3::Zero();  ///< m/s
+    double pressure = 0.0;          ///< Pa
+    double heading = 0.0;           ///< rad
+  };
+  Innovations innovations_;
+
+ private:
+  struct Gates {
+    Gate position;
+    Gate velocity;
+    Gate baro;
+    Gate mag;
+  };
+  struct Heard {
+    Time mag{0};
+    Time baro{0};
+    Time gnss{0};
+  };
+
+  void begin(const StartState& start, Time now);
+  void rebuild_baro_model();
+  void advance(const ImuSample& imu, double dt);
+  void fuse(const SensorFrame& frame);
+  void fuse_baro(const BaroSample& baro, Time now);
+  void fuse_gnss(const GnssSample& gnss, Time now);
+  template <class Correction>
+  void tell_delay_line(Correction&& correction);
+  void recover(Time now);
+  void realign_if_hopeless(const SensorFrame& frame, double dt);
+  void filter_rates(const Vector3& w_B, double dt);
+  void look_after(StateEstimate& estimate, Time now, double dt);
+
+  Alignment alignment_;
+  bool running_ = false;
+  bool realigning_ = false;
+  int seen_resets_ = 0;
+  Time last_reset_{0};
+  LocalOrigin origin_;
+  BaroModel baro_;
+  std::optional<double> origin_pressure_;
+  Vector3 accelerometer_offset_B_ = Vector3::Zero();
+  Vector3 w_filtered_B_ = Vector3::Zero();
+  bool rates_known_ = false;
+  DelayLine delay_line_;
+  Gates gates_;
+  Heard heard_;
+  Time previous_{0};
+  std::optional<GnssObservation> last_fix_;
+  StateEstimate last_good_;
+  int late_fixes_ = 0;
+  int recoveries_ = 0;
+  int realignments_ = 0;
+};
+
+}  // namespace ironbird::autopilot

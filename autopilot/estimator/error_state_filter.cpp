@@ -1,0 +1,232 @@
+#include "autopilot/estimator/error_state_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace ironbird::autopilot {
+
+namespace {
+
+constexpr int kP = ErrorState::kPosition;
+constexpr int kDown = ErrorState::kPosition + 2;
+constexpr int kV = ErrorState::kVelocity;
+constexpr int kT = ErrorState::kAttitude;
+constexpr int kG = ErrorState::kGyroBias;
+constexpr int kA = ErrorState::kAccelerometerBias;
+constexpr int kW = ErrorState::kGnssWalk;
+constexpr int kB = ErrorState::kBaroWalk;
+
+constexpr double kLeastLevelness = 1.0e-9;  // of a field that still has an azimuth
+
+double square(double a) {
+  return a * a;
+}
+
+Vector3 root_of(const Vector3& variances) {
+  return variances.cwiseMax(0.0).cwiseSqrt();
+}
+
+}  // namespace
+
+void ErrorStateFilter::reset() {
+  AidedEstimator::reset();
+  x_ = ErrorState{};
+  P_.setIdentity();
+  step_ = 0.0;
+}
+
+void ErrorStateFilter::start(const StartState& start) {
+  const InitialSigmaParams& sigma = aiding().initial;
+  const ErrorStateNoiseParams& q = params().noise;
+  x_ = ErrorState{};
+  x_.p_NB_N = start.p_NB_N;
+  x_.v_NB_N = start.v_NB_N;
+  x_.q_NB = start.q_NB;
+  x_.gyro_bias_B = start.gyro_bias_B;
+  const Vector3 down_B = start.q_NB.conjugate() * Vector3::UnitZ();
+  const Matrix3 along = down_B * down_B.transpose();
+  const Matrix3 across = Matrix3::Identity() - along;
+  const double tilt = start.moving ? sigma.air_tilt : sigma.tilt;
+  const double heading = start.moving ? sigma.air_heading : sigma.heading;
+  const double vertical_bias = start.moving ? q.initial_accelerometer_bias : q.initial_vertical_bias;
+
+  P_.setZero();
+  P_.diagonal().segment<3>(kP).setConstant(square(sigma.position));
+  P_.diagonal().segment<3>(kV).setConstant(square(start.moving ? sigma.air_velocity : sigma.velocity));
+  P_.diagonal().segment<3>(kG).setConstant(square(start.moving ? sigma.air_gyro_bias : sigma.gyro_bias));
+  P_.block<3, 3>(kA, kA) = square(q.initial_accelerometer_bias) * across + square(vertical_bias) * along;
+  P_.block<3, 3>(kT, kT) = square(tilt) * across + square(heading) * along;
+  if (start.moving) return;
+  // The tilt came from the accelerometer, so its bias b tilts by -[down]x b/g (docs/equations.md, section 7).
+  const Matrix3 tilt_from_bias = skew(down_B) * (-1.0 / aiding().gravity);
+  const Matrix3 cross = tilt_from_bias * P_.block<3, 3>(kA, kA);
+  P_.block<3, 3>(kT, kT) += cross * tilt_from_bias.transpose();
+  P_.block<3, 3>(kT, kA) = cross;
+  P_.block<3, 3>(kA, kT) = cross.transpose();
+}
+
+void ErrorStateFilter::rebuild_step_constants(double h) {
+  const ErrorStateNoiseParams& q = params().noise;
+  step_ = h;
+  decay_.gnss = std::exp(-h / q.gnss_time_constant);
+  decay_.baro = std::exp(-h / q.baro_time_constant);
+  const double gnss = 1.0 - square(decay_.gnss);
+  noise_.setZero();
+  noise_.segment<3>(kV).setConstant(square(q.accelerometer) * h);
+  noise_.segment<3>(kT).setConstant(square(q.gyro) * h);
+  noise_.segment<3>(kG).setConstant(square(q.gyro_bias) * h);
+  noise_.segment<3>(kA).setConstant(square(q.accelerometer_bias) * h);
+  noise_.segment<3>(kW) << square(q.gnss_horizontal) * gnss, square(q.gnss_horizontal) * gnss,
+      square(q.gnss_vertical) * gnss;
+  noise_(kB) = square(q.baro) * (1.0 - square(decay_.baro));
+}
+
+void ErrorStateFilter::predict(const Vector3& f_B, const Vector3& w_B, double dt) {
+  if (dt != step_) rebuild_step_constants(dt);
+  const EkfInput u{f_B, w_B, aiding().gravity};
+  Matrix3 R_mid;
+  const ErrorState next = error_state_propagate(x_, u, decay_, dt, R_mid);
+  error_state_propagate_covariance(P_, error_transition(x_, u, R_mid, decay_, dt), noise_);
+  x_ = next;
+}
+
+void ErrorStateFilter::forget(int first, int size, double variance) {
+  P_.middleRows(first, size).setZero();
+  P_.middleCols(first, size).setZero();
+  P_.diagonal().segment(first, size).setConstant(variance);
+}
+
+void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
+  const MagParams& wanted = aiding().mag;
+  const ErrorMagModel model = error_state_mag(x_, m_B, wanted.declination);
+  // Noise of the unit vector turns the azimuth by itself over the horizontal part.
+  const double R =
+      square(wanted.sigma) / std::max(model.levelness, kLeastLevelness) + square(wanted.sigma_tilt);
+  const double S = model.H * P_.block<3, 3>(kT, kT) * model.H.transpose() + R;
+  innovations_.heading = model.innovation;
+  const Verdict verdict =
+      mag_gate().judge(square(model.innovation) / S, wanted.gate, wanted.persistence, now);
+  if (verdict == Verdict::kReject) return;
+  if (verdict == Verdict::kReset) {
+    const Vector3 down_B = x_.q_NB.conjugate() * Vector3::UnitZ();
+    x_.q_NB = (Quaternion(Eigen::AngleAxisd(model.innovation, Vector3::UnitZ())) * x_.q_NB).normalized();
+    P_.block<3, 3>(kT, kT) += R * down_B * down_B.transpose();
+    return;
+  }
+  Update update;
+  update.fuse_block<3>(P_, model.innovation, model.H, kT, R);
+  x_ = x_.plus(update.correction);
+}
+
+void ErrorStateFilter::correct_baro(double difference, Time now) {
+  const BaroParams& wanted = aiding().baro;
+  const double p_d = x_.p_NB_N.z();
+  const double C = baro_model().slope(p_d);
+  const double R = square(wanted.sigma);
+  const double innovation = difference - baro_model().pressure_difference(p_d) - x_.baro_walk;
+  innovations_.pressure = innovation;
+  const ErrorState::Vector PCt = C * P_.col(kDown) + P_.col(kB);
+  const double CPCt = C * PCt(kDown) + PCt(kB);
+  const Verdict verdict =
+      baro_gate().judge(square(innovation) / (CPCt + R), wanted.gate, wanted.persistence, now);
+  if (verdict == Verdict::kReject) return;
+  if (verdict == Verdict::kReset) {
+    // The receiver knows the height as well: it is the pressure that has stepped.
+    forget(kB, 1, R);
+    x_.baro_walk += innovation;
+    return;
+  }
+  Update update;
+  update.fuse(P_, innovation, PCt, CPCt, 0.0, R);
+  x_ = x_.plus(update.correction);
+}
+
+void ErrorStateFilter::correct_gnss(const GnssObservation& fix, Time now) {
+  Update update;
+  fuse_velocity(fix, now, update);
+  fuse_position(fix, now, update);
+  x_ = x_.plus(update.correction);
+}
+
+void ErrorStateFilter::fuse_velocity(const GnssObservation& fix, Time now, Update& update) {
+  const GnssParams& wanted = aiding().gnss;
+  Matrix3 S = P_.block<3, 3>(kV, kV);
+  S.diagonal() += fix.variance_v;
+  const double nis = fix.dv_N.dot(S.inverse() * fix.dv_N);
+  const Verdict verdict = velocity_gate().judge(nis, wanted.velocity_gate, wanted.persistence, now);
+  if (verdict == Verdict::kAccept) {
+    for (int axis = 0; axis < 3; ++axis) {
+      update.fuse_component(P_, fix.dv_N(axis), kV + axis, 1.0, fix.variance_v(axis));
+    }
+  } else if (verdict == Verdict::kReset) {
+    forget(kV, 3, fix.variance_v.maxCoeff());
+    update.correction.segment<3>(kV) = fix.dv_N;
+  }
+}
+
+void ErrorStateFilter::fuse_position(const GnssObservation& fix, Time now, Update& update) {
+  const GnssParams& wanted = aiding().gnss;
+  // h = p + walk: C picks both.
+  const Vector3 innovation = fix.dp_N - x_.gnss_walk_N;
+  innovations_.p_N = innovation;
+  const Vector3 left = innovation - update.correction.segment<3>(kP) - update.correction.segment<3>(kW);
+  Matrix3 S =
+      P_.block<3, 3>(kP, kP) + P_.block<3, 3>(kP, kW) + P_.block<3, 3>(kW, kP) + P_.block<3, 3>(kW, kW);
+  S.diagonal() += fix.variance_p;
+  const double nis = left.dot(S.inverse() * left);
+  const Verdict verdict = position_gate().judge(nis, wanted.position_gate, wanted.persistence, now);
+  if (verdict == Verdict::kAccept) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const ErrorState::Vector PCt = P_.col(kP + axis) + P_.col(kW + axis);
+      update.fuse(P_, innovation(axis), PCt, PCt(kP + axis) + PCt(kW + axis),
+                  update.correction(kP + axis) + update.correction(kW + axis), fix.variance_p(axis));
+    }
+  } else if (verdict == Verdict::kReset) {
+    forget(kP, 2, fix.variance_p.x());
+    update.correction.segment<2>(kP) = innovation.head<2>() - update.correction.segment<2>(kW);
+    // Height has the barometer as well: there it is the receiver that has stepped.
+    forget(kW + 2, 1, fix.variance_p.z());
+    update.correction(kW + 2) = innovation.z() - update.correction(kP + 2);
+  }
+}
+
+bool ErrorStateFilter::is_finite() const {
+  const double sum = x_.p_NB_N.sum() + x_.v_NB_N.sum() + x_.q_NB.coeffs().sum() + x_.gyro_bias_B.sum() +
+                     x_.accelerometer_bias_B.sum() + x_.gnss_walk_N.sum() + x_.baro_walk;
+  return std::isfinite(sum) && std::isfinite(P_.diagonal().sum()) && P_.diagonal().minCoeff() >= 0.0;
+}
+
+void ErrorStateFilter::publish(StateEstimate& estimate) const {
+  const Matrix3 R_NB = x_.q_NB.toRotationMatrix();
+  const Vector3 theta = euler_from_quaternion(x_.q_NB);
+  estimate.p_NB_N = x_.p_NB_N;
+  estimate.v_NB_B = R_NB.transpose() * x_.v_NB_N;
+  estimate.q_NB = x_.q_NB;
+  estimate.roll = theta.x();
+  estimate.pitch = theta.y();
+  estimate.heading = theta.z();
+  estimate.gyro_bias_B = x_.gyro_bias_B;
+  estimate.accelerometer_bias_B = x_.accelerometer_bias_B;
+  estimate.sigma_p_N = root_of(P_.diagonal().segment<3>(kP));
+  // v_B = R^T v: its error is R^T dv + [v_B]x dtheta.
+  Eigen::Matrix<double, 3, 6> J;
+  J << R_NB.transpose(), skew(estimate.v_NB_B);
+  const Eigen::Matrix<double, 3, 6> JP = J.lazyProduct(P_.block<6, 6>(kV, kV));
+  estimate.sigma_v_B = root_of((JP.cwiseProduct(J)).rowwise().sum());
+  const Matrix3 S = euler_rate_matrix(EulerTrig(theta));
+  const Matrix3 SP = S.lazyProduct(P_.block<3, 3>(kT, kT));
+  estimate.sigma_attitude = root_of((SP.cwiseProduct(S)).rowwise().sum());
+}
+
+void ErrorStateFilter::probe_filter(ProbeVisitor& visit) const {
+  visit("gyro_bias", x_.gyro_bias_B, "rad/s");
+  visit("sigma_gyro_bias", root_of(P_.diagonal().segment<3>(kG)), "rad/s");
+  visit("accelerometer_bias", x_.accelerometer_bias_B, "m/s^2");
+  visit("sigma_accelerometer_bias", root_of(P_.diagonal().segment<3>(kA)), "m/s^2");
+  visit("gnss_walk", x_.gnss_walk_N, "m");
+  visit("baro_walk", x_.baro_walk, "Pa");
+}
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,135 @@
+#include "autopilot/estimator/estimator.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace ironbird::autopilot {
+
+namespace {
+
+// Beyond these a sample is a transmission fault, not a measurement.
+constexpr double kMostSpecificForce = 1.0e3;  // m/s^2, 100 g
+constexpr double kMostRate = 1.0e2;           // rad/s, 16 turns per second
+constexpr double kMostField = 1.0e9;          // whatever the unit
+constexpr double kMostSpeed = 1.0e3;          // m/s
+constexpr double kMostDistance = 1.0e6;       // m
+constexpr double kLeastPressure = 1.0e3;      // Pa
+constexpr double kMostPressure = 2.0e5;       // Pa
+
+/// Every component is a number within +-limit. False for NaN.
+bool is_within(const Vector3& v, double limit) {
+  return std::abs(v.x()) <= limit && std::abs(v.y()) <= limit && std::abs(v.z()) <= limit;
+}
+
+bool is_sound(const ImuSample& s) {
+  return is_within(s.f_B, kMostSpecificForce) && is_within(s.w_NB_B, kMostRate);
+}
+
+bool is_sound(const MagSample& s) {
+  return is_within(s.m_B, kMostField) && s.m_B.squaredNorm() > 0.0;
+}
+
+bool is_sound(const BaroSample& s) {
+  return s.pressure >= kLeastPressure && s.pressure <= kMostPressure && std::isfinite(s.temperature);
+}
+
+bool is_sound(const GnssSample& s) {
+  return std::abs(s.latitude) < 0.5 * std::numbers::pi && std::abs(s.longitude) <= std::numbers::pi &&
+         std::abs(s.altitude) <= kMostDistance && is_within(s.v_NB_N, kMostSpeed) &&
+         std::isfinite(s.horizontal_accuracy) && std::isfinite(s.vertical_accuracy) &&
+         std::isfinite(s.speed_accuracy);
+}
+
+bool is_sound(const ExternalPose& s) {
+  return is_within(s.p_NB_N, kMostDistance) && is_within(s.v_NB_N, kMostSpeed) &&
+         std::abs(s.q_NB.norm() - 1.0) < 0.1;
+}
+
+/// Replaces `kept` by the newer sample when it is sound. @return 1 when a sample was dropped
+template <class Sample>
+int keep_if_sound(const std::optional<Sample>& newer, std::optional<Sample>& kept) {
+  if (!newer) return 0;
+  if (!is_sound(*newer)) return 1;
+  kept = newer;
+  return 0;
+}
+
+bool is_finite(const StateEstimate& e) {
+  return e.p_NB_N.allFinite() && e.v_NB_B.allFinite() && e.q_NB.coeffs().allFinite() &&
+         std::isfinite(e.roll) && std::isfinite(e.pitch) && std::isfinite(e.heading) &&
+         e.w_NB_B.allFinite() && e.gyro_bias_B.allFinite() && e.accelerometer_bias_B.allFinite() &&
+         e.sigma_p_N.allFinite() && e.sigma_v_B.allFinite() && e.sigma_attitude.allFinite();
+}
+
+}  // namespace
+
+void Estimator::collect(const SensorFrame& frame) {
+  vetted_.imu.stamp = frame.imu.stamp;
+  if (is_sound(frame.imu)) {
+    f_sum_B_ += frame.imu.f_B;
+    w_sum_B_ += frame.imu.w_NB_B;
+    ++imu_count_;
+    imu_known_ = true;
+  } else {
+    ++dropped_samples_;
+    imu_held_ = true;
+  }
+  dropped_samples_ += keep_if_sound(frame.mag, vetted_.mag);
+  dropped_samples_ += keep_if_sound(frame.baro, vetted_.baro);
+  dropped_samples_ += keep_if_sound(frame.gnss, vetted_.gnss);
+  dropped_samples_ += keep_if_sound(frame.external_pose, vetted_.external_pose);
+  if (frame.status) vetted_.status = frame.status;
+}
+
+const StateEstimate& Estimator::run(const SensorFrame& frame) {
+  if (started_ && frame.imu.stamp < newest_) {
+    ++refused_frames_;
+    return last_;
+  }
+  started_ = true;
+  newest_ = frame.imu.stamp;
+  collect(frame);
+  double dt = 0.0;
+  if (!imu_known_ || !divider_.due(frame.imu.stamp, period(), dt)) return last_;
+
+  if (imu_count_ > 0) {
+    vetted_.imu.f_B = f_sum_B_ / imu_count_;
+    vetted_.imu.w_NB_B = w_sum_B_ / imu_count_;
+  }
+  StateEstimate fresh = estimate(vetted_, dt);
+  if (is_finite(fresh)) {
+    last_ = fresh;
+    if (imu_held_ && last_.health == Health::kGood) last_.health = Health::kDegraded;
+  } else {
+    ++non_finite_estimates_;
+    last_.health = Health::kLost;
+    last_.stamp = frame.imu.stamp;
+  }
+  const ImuSample held = vetted_.imu;
+  vetted_ = SensorFrame{};
+  vetted_.imu = held;
+  f_sum_B_.setZero();
+  w_sum_B_.setZero();
+  imu_count_ = 0;
+  imu_held_ = false;
+  return last_;
+}
+
+void Estimator::reset() {
+  last_ = StateEstimate{};
+  vetted_ = SensorFrame{};
+  f_sum_B_.setZero();
+  w_sum_B_.setZero();
+  imu_count_ = 0;
+  imu_known_ = false;
+  imu_held_ = false;
+  divider_.reset();
+  newest_ = Time{0};
+  started_ = false;
+  refused_frames_ = 0;
+  dropped_samples_ = 0;
+  non_finite_estimates_ = 0;
+}
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,159 @@
+#include "autopilot/estimator/estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "autopilot/estimator/external_pose_estimator.hpp"
+#include "autopilot/math/euler_zyx.hpp"
+
+namespace ironbird::autopilot {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kRoundOff = 1.0e-12;
+
+/// Remembers what it was given; answers what it is told to.
+class Listener final : public Estimator {
+ public:
+  void reset() override { Estimator::reset(); }
+  int works = 0;
+  SensorFrame heard;
+  double dt = -1.0;
+  double answer = 1.0;
+
+ protected:
+  StateEstimate estimate(const SensorFrame& frame, double step) override {
+    ++works;
+    heard = frame;
+    dt = step;
+    StateEstimate x;
+    x.stamp = frame.imu.stamp;
+    x.p_NB_N.x() = answer;
+    x.health = Health::kGood;
+    return x;
+  }
+};
+
+SensorFrame frame_at(int ms, double f_z = -9.81) {
+  SensorFrame frame;
+  frame.imu.stamp = milliseconds(ms);
+  frame.imu.f_B = {0.0, 0.0, f_z};
+  return frame;
+}
+
+TEST(EstimatorTest, FindsTheStepFromIntegerStamps) {
+  Listener listener;
+  listener.run(frame_at(100));
+  EXPECT_EQ(listener.dt, 0.0);
+  listener.run(frame_at(107));
+  EXPECT_NEAR(listener.dt, 0.007, kRoundOff);
+}
+
+TEST(EstimatorTest, RefusesAnOlderFrameAndCountsIt) {
+  Listener listener;
+  listener.run(frame_at(100));
+  listener.run(frame_at(99));
+  EXPECT_EQ(listener.works, 1);
+  EXPECT_EQ(listener.refused_frames(), 1);
+}
+
+TEST(EstimatorTest, HoldsTheImuAndSaysDegradedWhenASampleIsNotFinite) {
+  Listener listener;
+  listener.run(frame_at(0, -9.0));
+  const StateEstimate& x = listener.run(frame_at(5, kNan));
+  EXPECT_EQ(listener.heard.imu.f_B.z(), -9.0);
+  EXPECT_EQ(listener.heard.imu.stamp, Time(milliseconds(5)));
+  EXPECT_EQ(x.health, Health::kDegraded);
+  EXPECT_EQ(listener.run(frame_at(10)).health, Health::kGood);
+}
+
+TEST(EstimatorTest, WaitsForTheFirstSoundImuSample) {
+  Listener listener;
+  EXPECT_EQ(listener.run(frame_at(0, kNan)).health, Health::kUninitialised);
+  EXPECT_EQ(listener.works, 0);
+}
+
+TEST(EstimatorTest, DropsSlowSamplesThatAreNotFiniteOrAbsurd) {
+  Listener listener;
+  SensorFrame frame = frame_at(0);
+  frame.mag = MagSample{.m_B = {kNan, 0.0, 1.0}};
+  frame.baro = BaroSample{.pressure = -3.0};
+  frame.gnss = GnssSample{.latitude = kNan};
+  frame.external_pose = ExternalPose{.p_NB_N = {0.0, kNan, 0.0}};
+  listener.run(frame);
+  EXPECT_FALSE(listener.heard.mag || listener.heard.baro || listener.heard.gnss ||
+               listener.heard.external_pose);
+  EXPECT_EQ(listener.dropped_samples(), 4);
+}
+
+TEST(EstimatorTest, KeepsTheLastFiniteEstimateMarkedLost) {
+  Listener listener;
+  listener.answer = 7.0;
+  listener.run(frame_at(0));
+  listener.answer = kNan;
+  const StateEstimate& x = listener.run(frame_at(5));
+  EXPECT_EQ(x.p_NB_N.x(), 7.0);
+  EXPECT_EQ(x.health, Health::kLost);
+  EXPECT_EQ(x.stamp, Time(milliseconds(5)));
+  EXPECT_EQ(listener.non_finite_estimates(), 1);
+}
+
+TEST(EstimatorTest, LosesNoSlowSampleBetweenTwoWorks) {
+  Listener listener;
+  listener.set_period(milliseconds(10));
+  listener.run(frame_at(0, -9.0));
+  SensorFrame between = frame_at(5, -8.0);
+  between.baro = BaroSample{.pressure = 90000.0};
+  listener.run(between);
+  EXPECT_EQ(listener.works, 1);
+  listener.run(frame_at(10, -10.0));
+  EXPECT_EQ(listener.works, 2);
+  ASSERT_TRUE(listener.heard.baro.has_value());
+  EXPECT_EQ(listener.heard.baro->pressure, 90000.0);
+  EXPECT_NEAR(listener.heard.imu.f_B.z(), -9.0, kRoundOff)
+      << "the mean of the two samples since the last work";
+  listener.run(frame_at(20));
+  EXPECT_FALSE(listener.heard.baro.has_value()) << "given only once";
+}
+
+TEST(ExternalPoseTest, PassesThePoseOn) {
+  ExternalPoseEstimator estimator;
+  EXPECT_EQ(estimator.run(frame_at(0)).health, Health::kUninitialised);
+  SensorFrame frame = frame_at(5);
+  frame.imu.w_NB_B = {0.1, 0.2, 0.3};
+  const Vector3 theta(0.1, -0.2, 2.0);
+  frame.external_pose = ExternalPose{.stamp = milliseconds(5),
+                                     .p_NB_N = {1.0, 2.0, -3.0},
+                                     .q_NB = quaternion_NB(theta),
+                                     .v_NB_N = {4.0, 0.0, 1.0}};
+  const StateEstimate& x = estimator.run(frame);
+  EXPECT_EQ(x.health, Health::kGood);
+  EXPECT_EQ(x.p_NB_N, Vector3(1.0, 2.0, -3.0));
+  EXPECT_LT((x.v_NB_N() - Vector3(4.0, 0.0, 1.0)).norm(), kRoundOff);
+  EXPECT_LT((Vector3(x.roll, x.pitch, x.heading) - theta).norm(), kRoundOff);
+  EXPECT_EQ(x.w_NB_B, Vector3(0.1, 0.2, 0.3));
+}
+
+TEST(ExternalPoseTest, CarriesALatePoseToThePresent) {
+  ExternalPoseEstimator estimator;
+  SensorFrame frame = frame_at(100);
+  frame.imu.w_NB_B = {0.0, 0.0, 1.0};
+  frame.external_pose = ExternalPose{.stamp = milliseconds(50), .v_NB_N = {2.0, 0.0, 0.0}};
+  const StateEstimate& x = estimator.run(frame);
+  EXPECT_NEAR(x.p_NB_N.x(), 0.1, kRoundOff);
+  EXPECT_NEAR(x.heading, 0.05, kRoundOff);
+}
+
+TEST(ExternalPoseTest, SaysDegradedWhenThePoseIsOld) {
+  ExternalPoseEstimator estimator;
+  SensorFrame frame = frame_at(0);
+  frame.external_pose = ExternalPose{};
+  estimator.run(frame);
+  EXPECT_EQ(estimator.run(frame_at(1000)).health, Health::kDegraded);
+}
+
+}  // namespace
+}  // namespace ironbird::autopilot

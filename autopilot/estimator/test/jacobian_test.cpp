@@ -1,0 +1,221 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "autopilot/estimator/aided_estimator.hpp"
+#include "autopilot/estimator/ekf_measurements.hpp"
+#include "autopilot/estimator/ekf_process.hpp"
+#include "autopilot/estimator/error_state_process.hpp"
+#include "autopilot/math/angles.hpp"
+
+namespace ironbird::autopilot {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr double kHalfPi = 0.5 * std::numbers::pi;
+constexpr double kStep = 1.0e-5;  // truncation and rounding both near 1e-10 for functions of order 1
+constexpr double kTolerance = 2.0e-7;
+
+/// A point at which derivatives are taken.
+struct Point {
+  std::string name;
+  Vector3 theta;
+  Vector3 v_B;
+  Vector3 w_B;
+  Vector3 f_B;
+};
+
+std::vector<Point> points() {
+  const Vector3 fast(12.0, -7.0, 4.0);
+  const Vector3 spin(3.0, -5.0, 2.0);
+  const Vector3 level(0.1, -0.2, -9.8);
+  return {{"Rest", Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), level},
+          {"Ordinary", {0.2, -0.1, 0.7}, {3.0, 0.5, -0.4}, {0.1, 0.3, -0.2}, level},
+          {"Fast", {-0.6, 0.5, -2.9}, fast, spin, {4.0, -3.0, -19.0}},
+          {"Inverted", {3.0, 0.3, 1.0}, fast, spin, {0.5, 0.2, 9.0}},
+          {"Seam", {0.1, 0.1, std::numbers::pi}, fast, spin, level},
+          {"Steep", {0.4, 1.45, -1.0}, fast, {0.3, 0.2, 0.1}, level},
+          {"NearlySingular", {0.4, kHalfPi - 0.01, -1.0}, {1.0, 2.0, 3.0}, {0.3, 0.2, 0.1}, level}};
+}
+
+/// One model: its analytic derivative at a point, and the function itself around the point.
+struct Model {
+  std::string name;
+  int inputs;
+  std::function<Matrix(const Point&)> analytic;
+  std::function<Vector(const Point&, const Vector&)> function;  ///< of the small change of its argument
+};
+
+constexpr double kGravity = 9.81;
+const Vector3 kGyroBias(0.01, -0.02, 0.03);
+const Vector3 kAccelerometerBias(0.05, 0.02, -0.04);
+const Vector3 kField = Vector3(0.41, 0.06, 0.91).normalized();  // in N
+
+EkfState ekf_state(const Point& p) {
+  return {{5.0, -3.0, -40.0}, p.v_B, p.theta, kGyroBias};
+}
+EkfInput input(const Point& p) {
+  return {p.f_B, p.w_B, kGravity};
+}
+Vector3 field_B(const Point& p) {
+  return rotation_NB(EulerTrig(p.theta)).transpose() * kField;
+}
+EulerTrig trig(const Point& p) {
+  return EulerTrig(p.theta);
+}
+
+ErrorState error_state(const Point& p) {
+  ErrorState x;
+  x.p_NB_N = {5.0, -3.0, -40.0};
+  x.q_NB = quaternion_NB(p.theta);
+  x.v_NB_N = x.q_NB * p.v_B;
+  x.gyro_bias_B = kGyroBias;
+  x.accelerometer_bias_B = kAccelerometerBias;
+  x.gnss_walk_N = {0.4, -0.3, 0.8};
+  x.baro_walk = 12.0;
+  return x;
+}
+
+Vector dynamics_at(const EkfState::Vector& x, const EkfInput& u) {
+  const EkfState state = EkfState::from(x);
+  return ekf_dynamics(state, EulerTrig(state.theta), u);
+}
+
+constexpr double kErrorStep = 1.0e-3;  // s, of the error-state transition
+const WalkDecay kDecay{.gnss = 0.999, .baro = 0.998};
+
+std::vector<Model> models() {
+  std::vector<Model> all;
+  all.push_back(
+      {"EkfDynamicsOfState", EkfState::kSize,
+       [](const Point& p) -> Matrix { return ekf_jacobian(ekf_state(p), trig(p), input(p)).full(); },
+       [](const Point& p, const Vector& dx) -> Vector {
+         return dynamics_at(ekf_state(p).stacked() + dx, input(p));
+       }});
+  all.push_back({"EkfDynamicsOfNoise", 6,
+                 [](const Point& p) -> Matrix { return ekf_noise_jacobian(ekf_state(p), trig(p)); },
+                 [](const Point& p, const Vector& noise) -> Vector {
+                   // The sensor reads truth plus noise, so truth is the reading less the noise.
+                   EkfInput u = input(p);
+                   u.f_B -= noise.head<3>();
+                   u.w_NB_B -= noise.tail<3>();
+                   return dynamics_at(ekf_state(p).stacked(), u);
+                 }});
+  all.push_back({"GnssVelocity", EkfState::kSize,
+                 [](const Point& p) -> Matrix {
+                   Matrix C = Matrix::Zero(3, EkfState::kSize);
+                   C.middleCols<6>(EkfState::kVelocity) = ekf_gnss_velocity(ekf_state(p), trig(p)).C;
+                   return C;
+                 },
+                 [](const Point& p, const Vector& dx) -> Vector {
+                   const EkfState x = EkfState::from(ekf_state(p).stacked() + dx);
+                   return ekf_gnss_velocity(x, EulerTrig(x.theta)).h;
+                 }});
+  all.push_back({"Barometer", 1,
+                 [](const Point& p) -> Matrix {
+                   const BaroModel baro{.density = 1.07, .density_gradient = -9.9e-5, .gravity = kGravity};
+                   return Matrix::Constant(1, 1, baro.slope(ekf_state(p).p_NB_N.z()));
+                 },
+                 [](const Point& p, const Vector& dx) -> Vector {
+                   const BaroModel baro{.density = 1.07, .density_gradient = -9.9e-5, .gravity = kGravity};
+                   return Vector::Constant(1, baro.pressure_difference(ekf_state(p).p_NB_N.z() + dx(0)));
+                 }});
+  all.push_back({"TiltMagOfField", 3,
+                 [](const Point& p) -> Matrix { return ekf_mag(field_B(p), trig(p), 0.2).F; },
+                 [](const Point& p, const Vector& dm) -> Vector {
+                   const double at_point = ekf_mag(field_B(p), trig(p), 0.2).y;
+                   const double y = ekf_mag(field_B(p) + Vector3(dm), trig(p), 0.2).y;
+                   return Vector::Constant(1, shortest_difference(y, at_point));
+                 }});
+  all.push_back({"TiltMagOfState", 3,
+                 [](const Point& p) -> Matrix { return -ekf_mag(field_B(p), trig(p), 0.2).H(); },
+                 [](const Point& p, const Vector& d_theta) -> Vector {
+                   // The whole innovation y(m, Theta) - psi, whose derivative is G - C.
+                   const Vector3 theta = p.theta + Vector3(d_theta);
+                   const double y = ekf_mag(field_B(p), EulerTrig(theta), 0.2).y;
+                   return Vector::Constant(1, shortest_difference(y, theta.z()));
+                 }});
+  all.push_back({"ErrorStateMag", 3,
+                 [](const Point& p) -> Matrix { return -error_state_mag(error_state(p), field_B(p), 0.1).H; },
+                 [](const Point& p, const Vector& e) -> Vector {
+                   ErrorState::Vector error = ErrorState::Vector::Zero();
+                   error.segment<3>(ErrorState::kAttitude) = e;
+                   const ErrorState x = error_state(p).plus(error);
+                   return Vector::Constant(1, error_state_mag(x, field_B(p), 0.1).innovation);
+                 }});
+  all.push_back({"ErrorStateTransition", ErrorState::kSize,
+                 [](const Point& p) -> Matrix {
+                   Matrix3 R_mid;
+                   error_state_propagate(error_state(p), input(p), kDecay, kErrorStep, R_mid);
+                   return error_transition(error_state(p), input(p), R_mid, kDecay, kErrorStep).full();
+                 },
+                 [](const Point& p, const Vector& e) -> Vector {
+                   Matrix3 unused;
+                   const ErrorState from = error_state(p);
+                   const ErrorState to = error_state_propagate(from, input(p), kDecay, kErrorStep, unused);
+                   const ErrorState moved =
+                       error_state_propagate(from.plus(e), input(p), kDecay, kErrorStep, unused);
+                   return moved.minus(to);
+                 }});
+  return all;
+}
+
+struct JacobianCase {
+  Model model;
+  Point point;
+};
+
+std::vector<JacobianCase> cases() {
+  std::vector<JacobianCase> all;
+  for (const Model& model : models()) {
+    for (const Point& point : points()) all.push_back({model, point});
+  }
+  return all;
+}
+
+class JacobianTest : public ::testing::TestWithParam<JacobianCase> {};
+
+TEST_P(JacobianTest, AgreesWithCentralDifferences) {
+  const Model& model = GetParam().model;
+  const Point& point = GetParam().point;
+  const Matrix analytic = model.analytic(point);
+  ASSERT_TRUE(analytic.allFinite());
+  // Near the pole the third derivatives grow as 1/cos^4 of the pitch; the tolerance with them.
+  const double steepness = 1.0 + 0.01 * std::pow(trig(point).secant, 4);
+  const double size = 1.0 + analytic.cwiseAbs().maxCoeff();
+  for (int column = 0; column < model.inputs; ++column) {
+    Vector change = Vector::Zero(model.inputs);
+    change(column) = kStep;
+    const Vector numeric = (model.function(point, change) - model.function(point, -change)) / (2.0 * kStep);
+    EXPECT_LT((numeric - analytic.col(column)).cwiseAbs().maxCoeff(), kTolerance * size * steepness)
+        << "column " << column << "\nnumeric " << numeric.transpose() << "\nanalytic "
+        << analytic.col(column).transpose();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, JacobianTest, ::testing::ValuesIn(cases()), [](const auto& case_) {
+  return case_.param.model.name + "_" + case_.param.point.name;
+});
+
+TEST(JacobianTest, StaysFiniteAtThePole) {
+  for (const double pitch : {kHalfPi, -kHalfPi}) {
+    const Point pole{"Pole", {0.3, pitch, 1.0}, {1.0, 2.0, 3.0}, {0.3, 0.2, 0.1}, {0.0, 0.0, -9.8}};
+    for (const Model& model : models()) EXPECT_TRUE(model.analytic(pole).allFinite()) << model.name;
+  }
+}
+
+TEST(JacobianTest, StaysFiniteWhenTheFieldIsVertical) {
+  const MagModel model = ekf_mag(Vector3::UnitZ(), EulerTrig(Vector3::Zero()), 0.0);
+  EXPECT_TRUE(model.F.allFinite());
+  EXPECT_TRUE(model.H().allFinite());
+}
+
+}  // namespace
+}  // namespace ironbird::autopilot

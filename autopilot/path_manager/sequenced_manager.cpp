@@ -1,0 +1,272 @@
+#include "autopilot/path_manager/sequenced_manager.hpp"
+
+#include <algorithm>
+
+#include "autopilot/signals.hpp"
+
+namespace ironbird::autopilot {
+
+namespace {
+
+bool is_usable(Health health) {
+  return health == Health::kGood || health == Health::kDegraded;
+}
+
+MotionPoint resting_at(const Vector3& p_N, double heading) {
+  MotionPoint point;
+  point.p_N = p_N;
+  point.heading = wrap(heading);
+  point.ended = true;
+  return point;
+}
+
+std::uint32_t size_of(const Route& route) {
+  return static_cast<std::uint32_t>(route.waypoints.size());
+}
+
+}  // namespace
+
+void SequencedManager::reset() {
+  PathManager::reset();
+  restart();
+  revision_ = released_ = holds_ = newest_id_ = size_ = 0;
+  target_ = Waypoint{};
+}
+
+void SequencedManager::restart() {
+  mode_ = Mode::kAway;
+  index_ = reached_ = 0;
+  counted_ = departed_ = pause_ = on_motion_ = replan_ = false;
+}
+
+void SequencedManager::take_over(const Signals& signals) {
+  const TrajectoryPoint& last = signals.trajectory;
+  revision_ = signals.route.revision;
+  released_ = signals.route.released;
+  holds_ = signals.route.holds;
+  size_ = size_of(signals.route);
+  for (const Waypoint& waypoint : signals.route.waypoints) newest_id_ = std::max(newest_id_, waypoint.id);
+  index_ = std::min(last.leg, size_);
+  if (index_ < size_) target_ = signals.route.waypoints[index_];
+  reached_ = last.reached;
+  counted_ = last.holding || last.finished || last.landing;
+  departed_ = true;
+  now_ = last.stamp;
+  if (!signals.flight.companion_flies() || !last.valid) return;
+  MotionPoint from = resting_at(last.p_N, last.heading);
+  from.v_N = last.v_N;
+  from.heading_rate = last.heading_rate;
+  brake(from);
+}
+
+void SequencedManager::probe(ProbeVisitor& visit) const {
+  visit("mode", static_cast<double>(mode_), "1");
+  visit("elapsed", seconds(now_ - began_), "s");
+}
+
+TrajectoryPoint SequencedManager::follow(const Route& route, const StateEstimate& estimate,
+                                         const FlightStatus& flight, double /*dt*/) {
+  now_ = estimate.stamp;
+  if (!is_usable(estimate.health)) {
+    mode_ = Mode::kAway;
+    TrajectoryPoint nothing;
+    nothing.stamp = now_;
+    return nothing;
+  }
+  const bool waits = !rules_.never_waits && !flight.companion_flies();
+  const bool on_ground = flight.phase == FlightPhase::kDisarmed || flight.phase == FlightPhase::kTakeOff;
+  if (waits && on_ground) restart();
+  notice(route);
+  if (waits || (mode_ == Mode::kAway && size_ == 0)) {
+    mode_ = Mode::kAway;
+    TrajectoryPoint here = point_of(resting_at(estimate.p_NB_N, estimate.heading));
+    here.valid = size_ > 0;
+    return here;
+  }
+  if (mode_ == Mode::kAway) begin(route, estimate);
+  step(route, estimate);
+  return point_of(reference());
+}
+
+void SequencedManager::notice(const Route& route) {
+  released_now_ = route.released != released_;
+  released_ = route.released;
+  if (route.holds != holds_) pause_ = true;
+  holds_ = route.holds;
+  if (route.revision != revision_) find_place(route);
+  revision_ = route.revision;
+}
+
+void SequencedManager::find_place(const Route& route) {
+  const auto& waypoints = route.waypoints;
+  const auto same = std::find_if(waypoints.begin(), waypoints.end(),
+                                 [&](const Waypoint& w) { return index_ < size_ && w.id == target_.id; });
+  const bool fresh =
+      std::none_of(waypoints.begin(), waypoints.end(), [&](const Waypoint& w) { return w.id <= newest_id_; });
+  size_ = size_of(route);
+  for (const Waypoint& waypoint : waypoints) newest_id_ = std::max(newest_id_, waypoint.id);
+  if (same != waypoints.end()) {
+    const auto place = static_cast<std::uint32_t>(same - waypoints.begin());
+    first_of_motion_ += place - index_;  // modulo 2^32: may be negative
+    last_of_motion_ += place - index_;
+    index_ = place;
+    replan_ = same->p_N != target_.p_N || same->heading != target_.heading ||
+              (looks_ahead() && mode_ == Mode::kMotion);
+    return;
+  }
+  if (fresh) {
+    index_ = reached_ = 0;
+    departed_ = false;
+  } else if (index_ >= size_) {
+    index_ = route.cyclic ? 0 : size_;
+  }
+  counted_ = false;
+  replan_ = true;
+}
+
+void SequencedManager::begin(const Route& route, const StateEstimate& estimate) {
+  replan_ = false;
+  MotionPoint here = resting_at(estimate.p_NB_N, estimate.heading);
+  here.v_N = estimate.v_NB_N();
+  if (!rules_.never_waits && here.v_N.norm() > kMovingSpeed) {
+    brake(here);
+  } else if (pause_) {
+    here.v_N.setZero();
+    rest(Mode::kPause, here);
+  } else {
+    leave(route, here.p_N, here.heading);
+  }
+}
+
+void SequencedManager::step(const Route& route, const StateEstimate& estimate) {
+  const bool stopping = mode_ == Mode::kBrake || mode_ == Mode::kPause;
+  if (!stopping && (pause_ || replan_)) brake(reference());
+  replan_ = false;
+  if (mode_ == Mode::kBrake) step_brake(route);
+  if (mode_ == Mode::kPause && over(route.hold_time)) {
+    pause_ = false;
+    leave(route, rest_.p_N, rest_.heading);
+  }
+  if (mode_ == Mode::kHold) {
+    const Waypoint& hold = route.waypoints[index_];
+    if (over(hold.hold_indefinitely ? std::nullopt : std::optional<double>(hold.hold_time))) advance(route);
+  }
+  if (mode_ == Mode::kDone) fly_on(route);
+  if (mode_ == Mode::kMotion) step_motion(route, estimate);
+}
+
+void SequencedManager::step_brake(const Route& route) {
+  if (released_now_) pause_ = false;
+  const MotionPoint stop = reference();
+  if (!stop.ended) return;
+  if (pause_) {
+    rest(Mode::kPause, resting_at(stop.p_N, stop.heading));
+  } else {
+    leave(route, stop.p_N, stop.heading);
+  }
+}
+
+void SequencedManager::fly_on(const Route& route) {
+  if (index_ >= size_ || (counted_ && index_ + 1 >= size_)) return;
+  const MotionPoint from = reference();
+  if (counted_) ++index_;
+  counted_ = false;
+  leave(route, from.p_N, from.heading);
+}
+
+void SequencedManager::step_motion(const Route& route, const StateEstimate& estimate) {
+  const MotionPoint motion = evaluate(seconds(now_ - began_));
+  while (index_ < last_of_motion_ && index_ - first_of_motion_ < motion.passed) {
+    ++index_;
+    ++reached_;
+    counted_ = false;
+    target_ = route.waypoints[index_];
+  }
+  if (index_ != last_of_motion_ || !(motion.ended || rules_.switch_early)) return;
+  if ((estimate.p_NB_N - route.waypoints[index_].p_N).norm() <= rules_.waypoint_tolerance) arrive(route);
+}
+
+void SequencedManager::arrive(const Route& route) {
+  if (!counted_) ++reached_;
+  counted_ = true;
+  hold_began_ = now_;
+  switch (route.waypoints[index_].kind) {
+    case WaypointKind::kGoto:
+      advance(route);
+      break;
+    case WaypointKind::kHold:
+      mode_ = Mode::kHold;
+      break;
+    case WaypointKind::kLand:
+      mode_ = Mode::kLand;
+      break;
+  }
+}
+
+void SequencedManager::advance(const Route& route) {
+  const bool at_end = index_ + 1 >= size_;
+  if (at_end && (!route.cyclic || size_ == 1)) {
+    mode_ = Mode::kDone;
+    return;
+  }
+  const Waypoint from = route.waypoints[index_];
+  index_ = at_end ? 0 : index_ + 1;
+  counted_ = false;
+  leave(route, from.p_N, from.heading);
+}
+
+void SequencedManager::leave(const Route& route, const Vector3& p_N, double heading) {
+  if (index_ >= size_) {
+    rest(Mode::kDone, resting_at(p_N, heading));
+    return;
+  }
+  last_of_motion_ = depart({p_N, heading, !departed_}, route, index_);
+  first_of_motion_ = index_;
+  target_ = route.waypoints[index_];
+  departed_ = true;
+  mode_ = Mode::kMotion;
+  on_motion_ = true;
+  began_ = now_;
+}
+
+void SequencedManager::brake(const MotionPoint& from) {
+  brake_ = Brake(from, rules_.limits);
+  mode_ = Mode::kBrake;
+  began_ = now_;
+}
+
+void SequencedManager::rest(Mode mode, const MotionPoint& where) {
+  mode_ = mode;
+  rest_ = where;
+  on_motion_ = false;
+  hold_began_ = now_;
+}
+
+bool SequencedManager::over(const std::optional<double>& duration) const {
+  return released_now_ || (duration && seconds(now_ - hold_began_) >= *duration);
+}
+
+MotionPoint SequencedManager::reference() const {
+  if (mode_ == Mode::kBrake) return brake_.evaluate(seconds(now_ - began_));
+  return on_motion_ ? evaluate(seconds(now_ - began_)) : rest_;
+}
+
+TrajectoryPoint SequencedManager::point_of(const MotionPoint& motion) const {
+  TrajectoryPoint point;
+  point.stamp = now_;
+  point.valid = true;
+  point.p_N = motion.p_N;
+  point.v_N = motion.v_N;
+  point.a_N = motion.a_N;
+  point.heading = motion.heading;
+  point.heading_rate = motion.heading_rate;
+  point.heading_acceleration = motion.heading_acceleration;
+  point.leg = index_;
+  point.reached = reached_;
+  point.holding = mode_ == Mode::kHold || mode_ == Mode::kPause;
+  point.finished = mode_ == Mode::kDone;
+  point.landing = mode_ == Mode::kLand;
+  return point;
+}
+
+}  // namespace ironbird::autopilot

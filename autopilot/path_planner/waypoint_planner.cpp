@@ -1,0 +1,158 @@
+#include "autopilot/path_planner/waypoint_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "autopilot/math/angles.hpp"
+#include "autopilot/math/finite.hpp"
+#include "autopilot/math/local_map.hpp"
+#include "autopilot/signals.hpp"
+
+namespace ironbird::autopilot {
+
+namespace {
+
+/// Checks numbers against the bounds that their description gives.
+struct BoundsVisitor {
+  bool& inside;
+
+  template <class Value>
+  void operator()(const char*, const Value&, const char*, const char*) const {}
+  void operator()(const char*, double value, const char*, const char*, double lower, double upper) const {
+    inside = inside && value >= lower && value <= upper;
+  }
+};
+
+bool is_acceptable(const Waypoint& waypoint) {
+  bool inside = true;
+  Waypoint::describe(waypoint, BoundsVisitor{inside});
+  if (waypoint.geodetic) GeodeticPosition::describe(*waypoint.geodetic, BoundsVisitor{inside});
+  return inside && all_finite(waypoint);
+}
+
+bool same_place(const LocalOrigin& a, const LocalOrigin& b) {
+  return a.known == b.known && a.latitude == b.latitude && a.longitude == b.longitude &&
+         a.altitude == b.altitude;
+}
+
+}  // namespace
+
+WaypointPlanner::WaypointPlanner() {
+  wanted_.reserve(kMostWaypoints);
+  route_.waypoints.reserve(kMostWaypoints);
+}
+
+void WaypointPlanner::reset() {
+  PathPlanner::reset();
+  wanted_.clear();
+  wanted_cyclic_ = waiting_ = geodetic_ = false;
+  last_id_ = 0;
+  origin_ = LocalOrigin{};
+  launch_.reset();
+  grounded_ = true;
+  route_.waypoints.clear();
+  route_.revision = route_.released = route_.holds = 0;
+  route_.hold_time.reset();
+  route_.cyclic = false;
+}
+
+void WaypointPlanner::take_over(const Signals& signals) {
+  wanted_.assign(signals.route.waypoints.begin(), signals.route.waypoints.end());
+  wanted_cyclic_ = signals.route.cyclic;
+  route_ = signals.route;
+  route_.waypoints.reserve(kMostWaypoints);
+  origin_ = signals.estimate.origin;
+  geodetic_ =
+      std::any_of(wanted_.begin(), wanted_.end(), [](const Waypoint& w) { return w.geodetic.has_value(); });
+  for (const Waypoint& waypoint : wanted_) last_id_ = std::max(last_id_, waypoint.id);
+}
+
+bool WaypointPlanner::request(const RouteRequest& request, const StateEstimate& estimate) {
+  return std::visit([&](const auto& wish) { return apply(wish, estimate); }, request);
+}
+
+const Route& WaypointPlanner::plan(const StateEstimate& estimate, const FlightStatus& flight, double) {
+  const bool disarmed = flight.phase == FlightPhase::kDisarmed;
+  if (grounded_ && !disarmed) launch_ = Place{estimate.p_NB_N, estimate.heading};
+  grounded_ = disarmed;
+  if (geodetic_ && estimate.origin.known && !same_place(origin_, estimate.origin))
+    put_in_force(estimate.origin);
+  return route_;
+}
+
+bool WaypointPlanner::apply(const AddWaypoint& wish, const StateEstimate& estimate) {
+  const std::size_t at = wish.at.value_or(static_cast<std::uint32_t>(wanted_.size()));
+  if (at > wanted_.size() || wanted_.size() >= kMostWaypoints || !is_acceptable(wish.waypoint)) return false;
+  const auto added = wanted_.insert(wanted_.begin() + static_cast<std::ptrdiff_t>(at), wish.waypoint);
+  added->id = ++last_id_;
+  put_in_force(estimate.origin);
+  return true;
+}
+
+bool WaypointPlanner::apply(const RemoveWaypoint& wish, const StateEstimate& estimate) {
+  if (wish.index >= wanted_.size()) return false;
+  wanted_.erase(wanted_.begin() + wish.index);
+  put_in_force(estimate.origin);
+  return true;
+}
+
+bool WaypointPlanner::apply(const SetRoute& wish, const StateEstimate& estimate) {
+  return replace(wish.waypoints, wish.cyclic, estimate);
+}
+
+bool WaypointPlanner::apply(const ClearRoute&, const StateEstimate& estimate) {
+  return replace({}, false, estimate);
+}
+
+bool WaypointPlanner::apply(const HoldHere& wish, const StateEstimate&) {
+  if (wish.duration && !(std::isfinite(*wish.duration) && *wish.duration >= 0.0)) return false;
+  route_.hold_time = wish.duration;
+  ++route_.holds;
+  ++route_.revision;
+  return true;
+}
+
+bool WaypointPlanner::apply(const Release&, const StateEstimate&) {
+  ++route_.released;
+  return true;
+}
+
+bool WaypointPlanner::apply(const ReturnToLaunch&, const StateEstimate& estimate) {
+  if (!launch_) return false;
+  Waypoint climb;
+  climb.p_N = estimate.p_NB_N;
+  climb.p_N.z() = std::min(estimate.p_NB_N.z(), launch_->p_N.z() - params().return_height);
+  climb.heading = estimate.heading;
+  Waypoint land;
+  land.kind = WaypointKind::kLand;
+  land.p_N << launch_->p_N.head<2>(), climb.p_N.z();
+  land.heading = launch_->heading;
+  return replace({climb, land}, false, estimate);
+}
+
+bool WaypointPlanner::replace(const std::vector<Waypoint>& waypoints, bool cyclic,
+                              const StateEstimate& estimate) {
+  if (waypoints.size() > kMostWaypoints) return false;
+  if (!std::all_of(waypoints.begin(), waypoints.end(), is_acceptable)) return false;
+  wanted_.assign(waypoints.begin(), waypoints.end());
+  for (Waypoint& waypoint : wanted_) waypoint.id = ++last_id_;
+  wanted_cyclic_ = cyclic;
+  put_in_force(estimate.origin);
+  return true;
+}
+
+void WaypointPlanner::put_in_force(const LocalOrigin& origin) {
+  geodetic_ =
+      std::any_of(wanted_.begin(), wanted_.end(), [](const Waypoint& w) { return w.geodetic.has_value(); });
+  waiting_ = geodetic_ && !origin.known;
+  if (waiting_) return;
+  origin_ = origin;
+  for (Waypoint& waypoint : wanted_) {
+    if (waypoint.geodetic) waypoint.p_N = local_from_geodetic(*waypoint.geodetic, origin);
+  }
+  route_.waypoints.assign(wanted_.begin(), wanted_.end());
+  route_.cyclic = wanted_cyclic_;
+  ++route_.revision;
+}
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,84 @@
+#include "autopilot/trajectory_follower/flat_pid_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "autopilot/math/angles.hpp"
+#include "autopilot/trajectory_follower/flatness.hpp"
+
+namespace ironbird::autopilot {
+
+namespace {
+
+constexpr double kSmallestCosine = 0.1;  // of the pitch, in the heading rate: about 84 degrees
+
+bool is_usable(Health health) {
+  return health == Health::kGood || health == Health::kDegraded;
+}
+
+/// Heading rate of the estimate, rad/s.
+double turning(const StateEstimate& estimate) {
+  return (estimate.w_NB_B.y() * std::sin(estimate.roll) + estimate.w_NB_B.z() * std::cos(estimate.roll)) /
+         std::max(std::cos(estimate.pitch), kSmallestCosine);
+}
+
+}  // namespace
+
+void FlatPidFollower::on_parameters() {
+  const FlatPidFollowerParams& p = params();
+  north_.configure(p.north, p.derivative_time_constant);
+  east_.configure(p.east, p.derivative_time_constant);
+  down_.configure(p.down, p.derivative_time_constant);
+  heading_.configure(p.heading, p.derivative_time_constant, -p.max_heading_rate, p.max_heading_rate);
+  tan_max_tilt_ = std::tan(p.max_tilt);
+}
+
+void FlatPidFollower::reset() {
+  TrajectoryFollower::reset();
+  for (Pid* pid : {&north_, &east_, &down_, &heading_}) pid->reset();
+}
+
+void FlatPidFollower::reset_integrals() {
+  for (Pid* pid : {&north_, &east_, &down_, &heading_}) pid->reset_integral();
+}
+
+void FlatPidFollower::probe(ProbeVisitor& visit) const {
+  visit("specific_force_N", specific_force_N_, "m/s^2");
+  visit("integral", Vector3(north_.integral_part(), east_.integral_part(), down_.integral_part()), "m/s^2");
+}
+
+ControlSetpoint FlatPidFollower::track(const TrajectoryPoint& point, const StateEstimate& estimate,
+                                       const FlightStatus& flight, double dt) {
+  if (!point.valid || !is_usable(estimate.health)) return NoSetpoint{};
+  if (flight.phase == FlightPhase::kDisarmed) reset_integrals();
+  const FlatPidFollowerParams& p = params();
+  const bool integrate = flight.companion_flies();
+  const Vector3 a_N = acceleration(point, estimate, dt, integrate);
+  const double turn = heading_rate(point, estimate, dt, integrate);
+  const ForceLimits limits{p.min_lift, tan_max_tilt_, p.min_thrust / p.mass, p.max_thrust / p.mass};
+  specific_force_N_ = limit_specific_force(a_N - Vector3(0.0, 0.0, p.gravity), limits);
+  return flat_inverse(specific_force_N_, estimate.heading, turn, p.mass);
+}
+
+Vector3 FlatPidFollower::acceleration(const TrajectoryPoint& point, const StateEstimate& estimate, double dt,
+                                      bool integrate) {
+  const Vector3 v_NB_N = estimate.v_NB_N();
+  const Vector3 rate_N = params().use_velocity_reference ? Vector3(v_NB_N - point.v_N) : v_NB_N;
+  Vector3 error_N = point.p_N - estimate.p_NB_N;
+  error_N.z() = std::min(error_N.z(), params().down_command_window);
+  return point.a_N + Vector3(north_.run(error_N.x(), rate_N.x(), dt, integrate),
+                             east_.run(error_N.y(), rate_N.y(), dt, integrate),
+                             down_.run(error_N.z(), rate_N.z(), dt, integrate));
+}
+
+double FlatPidFollower::heading_rate(const TrajectoryPoint& point, const StateEstimate& estimate, double dt,
+                                     bool integrate) {
+  const double error = shortest_difference(point.heading, estimate.heading);
+  unwrapped_heading_ = unwrap_near(estimate.heading, unwrapped_heading_);
+  const double correction = params().use_velocity_reference
+                                ? heading_.run(error, turning(estimate) - point.heading_rate, dt, integrate)
+                                : heading_.run_filtered(error, unwrapped_heading_, dt, integrate);
+  return std::clamp(correction + point.heading_rate, -params().max_heading_rate, params().max_heading_rate);
+}
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "autopilot/math/pid.hpp"
+#include "autopilot/module/tunable.hpp"
+#include "autopilot/trajectory_follower/trajectory_follower.hpp"
+
+namespace ironbird::autopilot {
+
+/// Constants of the flat PID follower. The gains are the robust set tuned for the X650 with matched thrust.
+struct FlatPidFollowerParams {
+  double mass = 3.9;
+  double gravity = 9.81;
+  double derivative_time_constant = 0.05;
+  PidGains north{3.43, 0.014, 2.23};
+  PidGains east{3.43, 0.014, 2.23};
+  PidGains down{12.1, 0.024, 9.16};
+  PidGains heading{3.3, 0.0, 0.25};
+  bool use_velocity_reference = true;
+  double down_command_window = 3.0;
+  double min_lift = 3.924;
+  double max_tilt = 0.6;
+  double min_thrust = 4.0;
+  double max_thrust = 80.0;
+  double max_heading_rate = 2.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("mass", self.mass, "kg", "mass of the vehicle", 0.05, 100.0);
+    visit("gravity", self.gravity, "m/s^2", "gravitational acceleration", 1.0, 30.0);
+    visit("derivative_time_constant", self.derivative_time_constant, "s",
+          "filter of the heading's derivative", 1e-3, 1.0);
+    visit("north", self.north, "", "position north to acceleration");
+    visit("east", self.east, "", "position east to acceleration");
+    visit("down", self.down, "", "position down to acceleration");
+    visit("heading", self.heading, "", "heading to heading rate");
+    visit("use_velocity_reference", self.use_velocity_reference, "1",
+          "kd acts on the velocity error; false: on the velocity");
+    visit("down_command_window", self.down_command_window, "m",
+          "how far below itself the vehicle may be sent", 0.1, 1e6);
+    visit("min_lift", self.min_lift, "m/s^2", "least upward specific force", 0.1, 30.0);
+    visit("max_tilt", self.max_tilt, "rad", "greatest tilt", 0.05, 1.55);
+    visit("min_thrust", self.min_thrust, "N", "least thrust", 0.0, 1e4);
+    visit("max_thrust", self.max_thrust, "N", "greatest thrust", 0.1, 1e4);
+    visit("max_heading_rate", self.max_heading_rate, "rad/s", "greatest yaw rate", 0.05, 100.0);
+  }
+};
+
+/// PID on the position in N with velocity and acceleration of the trajectory fed forward, turned into
+/// attitude and thrust by differential flatness. ROScopter paper, trajectory follower.
+///
+/// Limits limit: lift, tilt, then the thrust window, which gives up horizontal force before vertical. It does
+/// not feed jerk forward.
+class FlatPidFollower final : public Tunable<TrajectoryFollower, FlatPidFollowerParams> {
+ public:
+  FlatPidFollower() { on_parameters(); }
+
+  void reset() override;
+  void probe(ProbeVisitor& visit) const override;
+
+ protected:
+  void on_parameters() override;
+  ControlSetpoint track(const TrajectoryPoint& point, const StateEstimate& estimate,
+                        const FlightStatus& flight, double dt) override;
+
+ private:
+  Vector3 acceleration(const TrajectoryPoint& point, const StateEstimate& estimate, double dt,
+                       bool integrate);
+  double heading_rate(const TrajectoryPoint& point, const StateEstimate& estimate, double dt, bool integrate);
+  void reset_integrals();
+
+  Pid north_;
+  Pid east_;
+  Pid down_;
+  Pid heading_;
+  double unwrapped_heading_ = 0.0;
+  double tan_max_tilt_ = 0.0;
+  Vector3 specific_force_N_ = Vector3::Zero();
+};
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "autopilot/modules.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace ironbird::scenarios {
+
+/// One verb of the program. `declare` adds its options to the given sub-command and returns what runs it.
+struct Verb {
+  const char* name;
+  const char* summary;
+  std::function<std::function<int(const autopilot::Modules&)>(CLI::App&)> declare;
+};
+
+Verb run_verb();
+Verb check_verb();
+Verb topics_verb();
+
+/// The whole program: reads the command line, runs one verb, reports errors in one line.
+/// @param modules  the kinds of module that scenarios can name; a researcher adds their own to
+/// standard_modules()
+/// @return the exit code
+int run_command_line(int argc, char** argv, const autopilot::Modules& modules);
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,30 @@
+#include "scenarios/app/interrupt.hpp"
+
+#include <csignal>
+
+namespace ironbird::scenarios {
+
+namespace {
+
+// A signal handler can reach nothing but a global.
+volatile std::sig_atomic_t interrupted = 0;
+
+void note(int) {
+  interrupted = 1;
+}
+
+}  // namespace
+
+void note_interrupts() {
+  struct sigaction action = {};
+  action.sa_handler = note;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C ends the program
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupt_requested() {
+  return interrupted != 0;
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,127 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scenarios/app/command_line.hpp"
+#include "scenarios/app/exit_code.hpp"
+#include "scenarios/app/run_job.hpp"
+#include "scenarios/app/run_jobs.hpp"
+#include "scenarios/app/run_summary.hpp"
+#include "scenarios/app/terminal.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+struct RunArguments {
+  std::vector<std::string> files;
+  std::vector<std::string> settings;
+  std::string seeds;
+  std::string out = "out";
+  int jobs = 1;
+  bool json = false;
+  RunProducts products;
+  bool no_log = false;
+  bool no_report = false;
+};
+
+std::vector<std::pair<std::string, std::string>> split_settings(const std::vector<std::string>& settings) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw ConfigError("--set " + setting + ": must be path=value, for example plant.engine=ode");
+    }
+    pairs.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  return pairs;
+}
+
+/// "7" or "1:20". Empty: the scenario's own seed.
+std::vector<std::uint64_t> parse_seeds(const std::string& text) {
+  if (text.empty()) return {};
+  try {
+    std::size_t used = 0;
+    const std::uint64_t first = std::stoull(text, &used);
+    if (used == text.size()) return {first};
+    if (text[used] != ':') throw std::invalid_argument(text);
+    std::size_t rest = 0;
+    const std::string tail = text.substr(used + 1);
+    const std::uint64_t last = std::stoull(tail, &rest);
+    if (rest != tail.size() || last < first) throw std::invalid_argument(text);
+    std::vector<std::uint64_t> seeds;
+    for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
+    return seeds;
+  } catch (const std::logic_error&) {
+    throw ConfigError("--seed " + text + ": must be a number, or first:last such as 1:20");
+  }
+}
+
+std::vector<RunJob> make_jobs(const RunArguments& arguments, const autopilot::Modules& modules) {
+  const std::vector<std::uint64_t> seeds = parse_seeds(arguments.seeds);
+  std::vector<RunJob> jobs;
+  for (const std::string& file : arguments.files) {
+    Overrides overrides{split_settings(arguments.settings), std::nullopt};
+    const std::size_t count = std::max<std::size_t>(1, seeds.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!seeds.empty()) overrides.seed = seeds[i];
+      auto loaded = std::make_shared<const LoadedScenario>(load_scenario(file, overrides, modules));
+      std::filesystem::path folder = std::filesystem::path(arguments.out) / loaded->name;
+      if (seeds.size() > 1) folder /= "seed_" + std::to_string(seeds[i]);
+      jobs.push_back({std::move(loaded), std::move(folder), arguments.products});
+    }
+  }
+  return jobs;
+}
+
+int run(RunArguments arguments, const autopilot::Modules& modules) {
+  arguments.products.log = !arguments.no_log;
+  arguments.products.report = !arguments.no_report && !arguments.no_log;
+  if (arguments.no_log && (arguments.products.video || arguments.products.snapshots)) {
+    throw ConfigError("--no-log: film and snapshots are made from the log; leave one of the options away");
+  }
+  const std::vector<RunJob> jobs = make_jobs(arguments, modules);
+  const Terminal terminal = Terminal::of_standard_error();
+  const std::vector<RunResult> results = run_jobs(jobs, modules, arguments.jobs, terminal);
+  if (arguments.json) std::fputs(summary_json(results).c_str(), stdout);
+  if (results.size() > 1) std::fputs(summary_text(results, terminal).c_str(), stderr);
+  return exit_code_of(results);
+}
+
+}  // namespace
+
+Verb run_verb() {
+  return {"run", "fly scenarios and judge them", [](CLI::App& app) {
+            auto arguments = std::make_shared<RunArguments>();
+            app.add_option("scenarios", arguments->files, "scenario files")->required();
+            app.add_option("--set", arguments->settings, "path=value, changes the scenario; may be repeated")
+                ->take_all()
+                ->type_name("PATH=VALUE");
+            app.add_option("--seed", arguments->seeds, "seed of the run, or first:last for several runs");
+            app.add_option("--out", arguments->out, "folder for the results")->capture_default_str();
+            app.add_option("--jobs", arguments->jobs, "runs at the same time, each in a process of its own")
+                ->check(CLI::Range(1, 256))
+                ->capture_default_str();
+            app.add_flag("--video", arguments->products.video, "make video.mp4");
+            app.add_flag("--preview", arguments->products.preview,
+                         "with --video: quicker and plainer pictures");
+            app.add_flag("--snapshots", arguments->products.snapshots,
+                         "make the pictures that the scenario names");
+            app.add_flag("--no-log", arguments->no_log, "write no log and no report, only the verdict");
+            app.add_flag("--no-report", arguments->no_report, "write no report");
+            app.add_flag("--json", arguments->json, "verdicts as JSON on standard output");
+            app.footer(
+                "Examples:\n"
+                "  ironbird run scenarios/library/paper/three_waypoints.toml --video\n"
+                "  ironbird run scenarios/library/weather/*.toml --jobs 2 --seed 1:20\n"
+                "  ironbird run scenarios/library/paper/three_waypoints.toml --set plant.engine=ode\n"
+                "  ironbird run scenarios/library/paper/three_waypoints.toml --set "
+                "autopilot.estimator.kind=error_state");
+            return [arguments](const autopilot::Modules& modules) { return run(*arguments, modules); };
+          }};
+}
+
+}  // namespace ironbird::scenarios

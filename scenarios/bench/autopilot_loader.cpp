@@ -1,0 +1,206 @@
+#include "scenarios/bench/autopilot_loader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include "scenarios/config/nearest_name.hpp"
+#include "scenarios/config/toml_reader.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+using autopilot::AutopilotConfig;
+using autopilot::ParameterSlot;
+using autopilot::ParameterTable;
+using autopilot::ParameterValue;
+
+/// One slot of the autopilot: its name, its place in the configuration, and how to see the parameters of a
+/// kind.
+struct SlotAccess {
+  std::string name;
+  AutopilotConfig::Slot* slot;
+  std::function<std::vector<std::string>()> kinds;
+  /// Registers the parameters of a new module of `kind` under the slot's name. The module lives as long as
+  /// the return value.
+  std::function<std::shared_ptr<void>(const std::string& kind, ParameterTable&)> make;
+};
+
+template <class Base>
+SlotAccess access(const char* name, AutopilotConfig::Slot& slot, const autopilot::Registry<Base>& registry) {
+  return {name, &slot, [&registry] { return registry.names(); },
+          [&registry, name](const std::string& kind, ParameterTable& table) -> std::shared_ptr<void> {
+            std::shared_ptr<Base> module = registry.make(kind);
+            if (module != nullptr) module->register_parameters(table, name);
+            return module;
+          }};
+}
+
+std::array<SlotAccess, 5> all_slots(AutopilotConfig& config, const autopilot::Modules& modules) {
+  return {access("estimator", config.estimator, modules.estimators),
+          access("path_planner", config.path_planner, modules.path_planners),
+          access("path_manager", config.path_manager, modules.path_managers),
+          access("trajectory_follower", config.trajectory_follower, modules.trajectory_followers),
+          access("controller", config.controller, modules.controllers)};
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+class AutopilotReader {
+ public:
+  AutopilotReader(const toml::table& root, LoadedScenario& loaded) : root_(root), loaded_(loaded) {}
+
+  void read(SlotAccess& access) {
+    const toml::table* table = root_["autopilot"][access.name].as_table();
+    if (table != nullptr) read_slot(*table, access);
+    const std::vector<std::string> kinds = access.kinds();
+    if (std::find(kinds.begin(), kinds.end(), access.slot->kind) == kinds.end()) {
+      return report("autopilot." + access.name + ".kind = \"" + access.slot->kind +
+                    "\": there is no such module; there are: " + joined(kinds));
+    }
+    for (const std::string& kind : kinds) {
+      ParameterTable parameters;
+      const std::shared_ptr<void> module = access.make(kind, parameters);
+      ModuleSettings settings{access.name, kind, {}};
+      set_environment(parameters, access.name, settings);
+      const std::string kind_path = "autopilot.kinds." + kind;
+      if (const toml::table* own = root_["autopilot"]["kinds"][kind].as_table()) {
+        read_parameters(*own, kind_path, access.name, parameters, settings, {});
+      }
+      if (table != nullptr && kind == access.slot->kind) {
+        read_parameters(*table, "autopilot." + access.name, access.name, parameters, settings,
+                        {"kind", "period"});
+      }
+      loaded_.modules.push_back(std::move(settings));
+    }
+  }
+
+  /// Tables that no slot and no kind has read.
+  void report_unknown(const std::array<SlotAccess, 5>& slots) {
+    const toml::table* all = root_["autopilot"].as_table();
+    if (all == nullptr) return;
+    std::vector<std::string> names = {"kinds"};
+    std::vector<std::string> kinds;
+    for (const SlotAccess& slot : slots) {
+      names.push_back(slot.name);
+      for (const std::string& kind : slot.kinds()) kinds.push_back(kind);
+    }
+    report_strangers(*all, "autopilot", names);
+    if (const toml::table* tables = (*all)["kinds"].as_table())
+      report_strangers(*tables, "autopilot.kinds", kinds);
+  }
+
+  void finish() const {
+    if (!findings_.empty()) throw ConfigError(findings_);
+  }
+
+ private:
+  void read_slot(const toml::table& table, const SlotAccess& access) {
+    TomlReader reader;
+    const std::string path = "autopilot." + access.name;
+    if (const toml::node* kind = table.get("kind"))
+      reader.read_value(*kind, access.slot->kind, {""}, path + ".kind");
+    if (const toml::node* period = table.get("period")) {
+      reader.read_value(*period, access.slot->period, {"ns", 0.0, 1e10}, path + ".period");
+      check_period(access.slot->period, path);
+    }
+    take(reader);
+  }
+
+  void check_period(autopilot::Time period, const std::string& path) {
+    const auto tick = loaded_.scenario.fcu.tick;
+    if (tick.count() <= 0 || period.count() % tick.count() == 0) return;
+    const double below =
+        static_cast<double>(period.count() / tick.count()) * static_cast<double>(tick.count()) * 1e-6;
+    const double step = static_cast<double>(tick.count()) * 1e-6;
+    report(path + ".period = " + std::to_string(static_cast<double>(period.count()) * 1e-6) +
+           " ms: must be a multiple of the tick; the nearest are " + std::to_string(below) + " ms and " +
+           std::to_string(below + step) + " ms");
+  }
+
+  void set_environment(ParameterTable& parameters, const std::string& slot, ModuleSettings& settings) {
+    const simulator::EnvironmentParams& environment = loaded_.scenario.environment;
+    const std::pair<const char*, double> site[] = {{"gravity", environment.gravity},
+                                                   {"mag.declination", environment.magnetic_field.declination}};
+    for (const auto& [name, value] : site) {
+      const std::string path = slot + "." + name;
+      if (parameters.find(path) != nullptr) settings.values.emplace_back(path, value);
+    }
+  }
+
+  void read_parameters(const toml::table& table, const std::string& shown, const std::string& path,
+                       const ParameterTable& parameters, ModuleSettings& settings,
+                       const std::vector<std::string>& also_known) {
+    for (const auto& [key, node] : table) {
+      const std::string name(key.str());
+      if (std::find(also_known.begin(), also_known.end(), name) != also_known.end()) continue;
+      const std::string full = path + "." + name;
+      if (const toml::table* inner = node.as_table()) {
+        read_parameters(*inner, shown + "." + name, full, parameters, settings, {});
+      } else if (const ParameterSlot* slot = parameters.find(full)) {
+        settings.values.emplace_back(full, read_value(node, *slot, shown + "." + name));
+      } else {
+        report_unknown_parameter(shown + "." + name, full, settings, parameters);
+      }
+    }
+  }
+
+  ParameterValue read_value(const toml::node& node, const ParameterSlot& slot, const std::string& path) {
+    TomlReader reader;
+    const Allowed allowed{slot.unit, slot.lower, slot.upper};
+    ParameterValue value =
+        std::visit([](const auto* current) { return ParameterValue(*current); }, slot.value);
+    std::visit([&](auto& typed) { reader.read_value(node, typed, allowed, path); }, value);
+    take(reader);
+    return value;
+  }
+
+  void report_unknown_parameter(const std::string& shown, const std::string& full,
+                                const ModuleSettings& settings, const ParameterTable& parameters) {
+    std::vector<std::string> names;
+    for (const ParameterSlot& slot : parameters.slots()) names.push_back(slot.path);
+    std::string text = shown + ": module \"" + settings.kind + "\" has no such parameter";
+    const std::string nearest = nearest_name(full, names);
+    if (!nearest.empty()) text += "; did you mean " + nearest.substr(settings.slot.size() + 1) + "?";
+    report(text);
+  }
+
+  void report_strangers(const toml::table& table, const std::string& path,
+                        const std::vector<std::string>& names) {
+    for (const auto& [key, node] : table) {
+      const std::string name(key.str());
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      const std::string nearest = nearest_name(name, names);
+      report(path + "." + name + ": unknown" + (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+    }
+  }
+
+  void take(const TomlReader& reader) {
+    findings_.insert(findings_.end(), reader.findings().begin(), reader.findings().end());
+  }
+
+  void report(const std::string& finding) {
+    findings_.push_back(loaded_.located(std::invalid_argument(finding)).what());
+  }
+
+  const toml::table& root_;
+  LoadedScenario& loaded_;
+  std::vector<std::string> findings_;
+};
+
+}  // namespace
+
+void load_autopilot(const toml::table& root, const autopilot::Modules& modules, LoadedScenario& loaded) {
+  std::array<SlotAccess, 5> slots = all_slots(loaded.autopilot, modules);
+  AutopilotReader reader(root, loaded);
+  for (SlotAccess& slot : slots) reader.read(slot);
+  reader.report_unknown(slots);
+  reader.finish();
+}
+
+}  // namespace ironbird::scenarios

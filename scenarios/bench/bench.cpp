@@ -1,0 +1,219 @@
+#include "scenarios/bench/bench.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "scenarios/bench/scenario_rules.hpp"
+#include "simulator/plant/mujoco_plant.hpp"
+#include "simulator/plant/ode_plant.hpp"
+#include "simulator/plant/rigid_body_plant.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+using autopilot::Vector3;
+
+constexpr std::chrono::nanoseconds kProgressPeriod = std::chrono::seconds(1);
+/// The pilot disarms this long after the vehicle has come to rest from a landing.
+constexpr double kDisarmDelay = 1.0;
+/// The pilot gives the vehicle to the companion this long after arming.
+constexpr double kHandOverDelay = 0.5;
+
+std::chrono::nanoseconds from_seconds(double seconds) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(std::llround(seconds * 1e9)));
+}
+
+double to_seconds(std::chrono::nanoseconds time) {
+  return static_cast<double>(time.count()) * 1e-9;
+}
+
+Vector3 vector(const std::array<double, 3>& numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+std::unique_ptr<simulator::Plant> make_plant(const Scenario& scenario) {
+  const simulator::FieldParams field;
+  switch (scenario.plant.engine) {
+    case Engine::kMujoco:
+      return simulator::make_mujoco_plant(scenario.vehicle, field);
+    case Engine::kOde:
+      return simulator::make_ode_plant(scenario.vehicle, field);
+    case Engine::kRigidBody:
+      return std::make_unique<simulator::RigidBodyPlant>();
+  }
+  throw std::invalid_argument("plant.engine: unknown");
+}
+
+simulator::WorldConfig world_config(const Scenario& scenario) {
+  simulator::WorldConfig config;
+  config.vehicle = scenario.vehicle;
+  config.environment = scenario.environment;
+  config.sensors = scenario.sensors;
+  config.initial_p_NB_N = vector(scenario.start.p_N);
+  config.initial_heading = scenario.start.heading;
+  config.on_ground = scenario.start.on_ground;
+  config.tick = scenario.fcu.tick;
+  config.seed = scenario.seed;
+  return config;
+}
+
+}  // namespace
+
+Bench::Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, BenchOptions options)
+    : loaded_(loaded), scenario_(loaded.scenario), options_(std::move(options)) {
+  world_ = std::make_unique<simulator::World>(world_config(scenario_), make_plant(scenario_));
+  fcu_ = std::make_unique<hil_bridge::VirtualFcu>(scenario_.fcu, *world_);
+  wire_autopilot(modules);
+  lockstep_ = std::make_unique<hil_bridge::Lockstep>(*fcu_, *autopilot_, scenario_.fcu.tick);
+  signals_.add("truth", world_->truth());
+  signals_.add("autopilot", autopilot_->signals());
+  signals_.add("fcu", lockstep_->telemetry());
+  judge_ = std::make_unique<Judge>(scenario_.checks, signals_,
+                                   RunMetrics::Sources{&world_->truth(), &autopilot_->signals()},
+                                   scenario_.fcu.tick);
+  wire_script();
+  if (!options_.log_file.empty()) wire_record();
+}
+
+Bench::~Bench() = default;
+
+void Bench::wire_autopilot(const autopilot::Modules& modules) {
+  autopilot_ = std::make_unique<autopilot::Autopilot>(loaded_.autopilot, modules);
+  const autopilot::AutopilotConfig& config = loaded_.autopilot;
+  const std::pair<const char*, const autopilot::AutopilotConfig::Slot*> slots[] = {
+      {"estimator", &config.estimator},
+      {"path_planner", &config.path_planner},
+      {"path_manager", &config.path_manager},
+      {"trajectory_follower", &config.trajectory_follower},
+      {"controller", &config.controller}};
+  for (const auto& [name, slot] : slots) {
+    const ModuleSettings* settings = loaded_.settings_of(name, slot->kind);
+    if (settings == nullptr) continue;
+    for (const auto& [path, value] : settings->values) autopilot_->parameters().set(path, value);
+  }
+  if (!scenario_.waypoints.empty()) {
+    ask(autopilot::RouteRequest(autopilot::SetRoute{scenario_.waypoints, scenario_.cyclic}), "route",
+        Time{0});
+  }
+}
+
+void Bench::wire_record() {
+  recorder_ = std::make_unique<Recorder>(options_.log_file);
+  recorder_->metadata("run", {{"title", scenario_.title},
+                              {"source", scenario_.source},
+                              {"scenario", loaded_.name},
+                              {"vehicle", scenario_.vehicle_folder},
+                              {"field", scenario_.field},
+                              {"seed", std::to_string(scenario_.seed)},
+                              {"digest", loaded_.digest},
+                              {"version", IRONBIRD_VERSION},
+                              {"config", loaded_.effective_config}});
+  const autopilot::Signals& signals = autopilot_->signals();
+  const Time state = from_seconds(scenario_.record.state_period);
+  const Time slow = from_seconds(scenario_.record.signal_period);
+  recorder_->add("/truth/state", world_->truth(), state);
+  recorder_->add("/autopilot/estimate", signals.estimate, state);
+  if (scenario_.record.frames) {
+    recorder_->add("/autopilot/sensors", signals.sensors);
+    recorder_->add("/autopilot/command", signals.command);
+  }
+  recorder_->add("/autopilot/flight", signals.flight, slow);
+  recorder_->add("/autopilot/trajectory", signals.trajectory, slow);
+  recorder_->add("/autopilot/setpoint", signals.setpoint, slow);
+  const hil_bridge::Telemetry& telemetry = lockstep_->telemetry();
+  recorder_->add("/fcu/output_raw", telemetry.output_raw, slow);
+  recorder_->add("/fcu/status", telemetry.status, slow);
+  recorder_->add("/fcu/attitude", telemetry.attitude, slow);
+  recorder_->add("/fcu/battery", telemetry.battery, slow);
+  recorder_->add("/fcu/rc", telemetry.rc, slow);
+}
+
+void Bench::wire_script() {
+  if (scenario_.pilot.automatic) {
+    schedule("", scenario_.pilot.arm_at, {Deed::Kind::kArm, 0});
+    schedule("", scenario_.pilot.arm_at + kHandOverDelay, {Deed::Kind::kHandOver, 0});
+    schedule("", scenario_.pilot.take_off_at, {Deed::Kind::kTakeOff, 0});
+    schedule("landed", kDisarmDelay, {Deed::Kind::kDisarm, 0});
+  }
+  for (std::size_t i = 0; i < scenario_.events.size(); ++i) {
+    schedule(scenario_.events[i].after, scenario_.events[i].at, {Deed::Kind::kEvent, i});
+  }
+  for (std::size_t i = 0; i < scenario_.snapshots.size(); ++i) {
+    schedule(scenario_.snapshots[i].after, scenario_.snapshots[i].at, {Deed::Kind::kSnapshot, i});
+  }
+  schedule("", scenario_.duration, {Deed::Kind::kEnd, 0});
+  if (!scenario_.end_after.empty()) schedule(scenario_.end_after, scenario_.end_delay, {Deed::Kind::kEnd, 0});
+}
+
+void Bench::schedule(const std::string& after, double delay, Deed deed) {
+  script_.add(after, from_seconds(delay));
+  deeds_.push_back(deed);
+}
+
+Verdict Bench::fly() {
+  const auto start = std::chrono::steady_clock::now();
+  Time next_progress{0};
+  while (!ended_) {
+    const Time now = tick();
+    if (now >= next_progress && options_.on_progress) {
+      next_progress += kProgressPeriod;
+      if (!options_.on_progress({to_seconds(now), scenario_.duration, ""})) {
+        interrupted_ = true;
+        break;
+      }
+    }
+  }
+  if (recorder_) recorder_->close();
+  return finish(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+Bench::Time Bench::tick() {
+  do_what_is_due(lockstep_->now());
+  const Time now = lockstep_->tick();
+  watch(now);
+  judge_->observe(now);
+  if (published_events_ != judge_->events().size()) publish_events(now);
+  if (recorder_ && lockstep_->stepped()) {
+    recorder_->observe(now);
+    if (autopilot_->signals().route.revision != recorded_route_) record_route(now);
+  }
+  return now;
+}
+
+void Bench::watch(Time now) {
+  if (const auto seen = ground_.observe(world_->truth())) judge_->event(now, "ground", std::string(*seen));
+  for (const auto& text : lockstep_->texts()) {
+    const char* begin = text.text.data();
+    judge_->event(now, "fcu", std::string(begin, strnlen(begin, text.text.size())));
+  }
+  if (const char* failure = world_->failure()) {
+    broken_promises_.emplace_back(std::string("the physics engine can no longer be believed: ") + failure);
+    ended_ = true;
+  }
+}
+
+void Bench::publish_events(Time now) {
+  const std::vector<RunEvent>& events = judge_->events();
+  for (; published_events_ < events.size(); ++published_events_) {
+    const RunEvent& event = events[published_events_];
+    script_.happened(event.text, now);
+    script_.happened(event.kind + ":" + event.text, now);
+    if (recorder_) recorder_->write_once("/bench/event", event, now);
+  }
+}
+
+void Bench::record_route(Time now) {
+  recorder_->write_once("/autopilot/route", autopilot_->signals().route, now);
+  recorded_route_ = autopilot_->signals().route.revision;
+}
+
+Verdict Bench::finish(double wall_seconds) {
+  if (interrupted_) broken_promises_.emplace_back("the run was interrupted");
+  return judge_->finish({loaded_.name, scenario_.title, scenario_.seed, loaded_.digest}, broken_promises_,
+                        wall_seconds);
+}
+
+}  // namespace ironbird::scenarios

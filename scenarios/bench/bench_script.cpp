@@ -1,0 +1,150 @@
+// The part of the bench that carries out the scenario's script.
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "scenarios/bench/bench.hpp"
+#include "scenarios/bench/scenario_rules.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+std::chrono::nanoseconds from_seconds(double seconds) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9 + 0.5));
+}
+
+autopilot::Request request_of(OperatorWish wish, const EventConfig& event) {
+  switch (wish) {
+    case OperatorWish::kTakeOff:
+      return autopilot::TakeOff{};
+    case OperatorWish::kLand:
+      return autopilot::Land{};
+    case OperatorWish::kHold:
+      return autopilot::RouteRequest(
+          autopilot::HoldHere{event.magnitude > 0.0 ? std::optional<double>(event.magnitude) : std::nullopt});
+    case OperatorWish::kRelease:
+      return autopilot::RouteRequest(autopilot::Release{});
+    case OperatorWish::kReturnToLaunch:
+      return autopilot::RouteRequest(autopilot::ReturnToLaunch{});
+    case OperatorWish::kClearRoute:
+      return autopilot::RouteRequest(autopilot::ClearRoute{});
+    case OperatorWish::kFollowerFlies:
+      return autopilot::OverrideSetpoint{std::nullopt};
+  }
+  throw std::invalid_argument("event.request: unknown");
+}
+
+}  // namespace
+
+void Bench::do_what_is_due(Time now) {
+  while (const auto item = script_.next_due(now)) perform(deeds_[*item], now);
+}
+
+void Bench::perform(const Deed& deed, Time now) {
+  switch (deed.kind) {
+    case Deed::Kind::kEvent:
+      return perform(scenario_.events[deed.index], now);
+    case Deed::Kind::kFaultEnd:
+      world_->end(static_cast<int>(deed.index));
+      return judge_->event(now, "fault_end", running_faults_[deed.index]);
+    case Deed::Kind::kArm:
+      return perform(PilotAction::kArm);
+    case Deed::Kind::kHandOver:
+      return perform(PilotAction::kHandOver);
+    case Deed::Kind::kTakeOff:
+      return ask(autopilot::TakeOff{}, "take_off", now);
+    case Deed::Kind::kDisarm:
+      // A pilot whose vehicle only bounced leaves the switch alone.
+      if (world_->truth().in_contact) perform(PilotAction::kDisarm);
+      return;
+    case Deed::Kind::kSnapshot:
+      return judge_->event(now, "snapshot", scenario_.snapshots[deed.index].name);
+    case Deed::Kind::kEnd:
+      ended_ = true;
+      return;
+  }
+}
+
+void Bench::perform(const EventConfig& event, Time now) {
+  if (event.fault) return begin_fault(event, now);
+  if (event.pilot) {
+    judge_->event(now, "pilot", describe_event(event));
+    return perform(*event.pilot);
+  }
+  if (event.request) return perform(*event.request, event, now);
+  if (event.setpoint) {
+    return ask(autopilot::OverrideSetpoint{only_setpoint(*event.setpoint)}, describe_event(event), now);
+  }
+  if (event.add_waypoint) {
+    const std::optional<std::uint32_t> at =
+        event.index > 0 ? std::optional<std::uint32_t>(static_cast<std::uint32_t>(event.index))
+                        : std::nullopt;
+    return ask(autopilot::RouteRequest(autopilot::AddWaypoint{*event.add_waypoint, at}),
+               describe_event(event), now);
+  }
+  if (event.remove_waypoint) {
+    const auto index = static_cast<std::uint32_t>(*event.remove_waypoint);
+    return ask(autopilot::RouteRequest(autopilot::RemoveWaypoint{index}), describe_event(event), now);
+  }
+  if (!event.swap.empty()) return swap_module(event, now);
+  ask(autopilot::SetParameter{event.set, event.value}, describe_event(event), now);
+}
+
+void Bench::begin_fault(const EventConfig& event, Time now) {
+  simulator::Fault fault;
+  fault.kind = *event.fault;
+  fault.index = event.index;
+  fault.magnitude = event.magnitude;
+  fault.vector = {event.vector[0], event.vector[1], event.vector[2]};
+  const int number = world_->begin(fault);
+  judge_->event(now, "fault", describe_event(event));
+  if (event.lasts > 0.0) {
+    running_faults_[static_cast<std::size_t>(number)] = describe_event(event);
+    script_.add("", now + from_seconds(event.lasts));
+    deeds_.push_back({Deed::Kind::kFaultEnd, static_cast<std::size_t>(number)});
+  }
+}
+
+void Bench::perform(PilotAction action) {
+  hil_bridge::RcPilot& pilot = fcu_->pilot();
+  switch (action) {
+    case PilotAction::kArm:
+      return pilot.arm(true);
+    case PilotAction::kDisarm:
+      return pilot.arm(false);
+    case PilotAction::kTakeOver:
+      return pilot.override_companion(true);
+    case PilotAction::kHandOver:
+      return pilot.override_companion(false);
+    case PilotAction::kLoseRadio:
+      return pilot.lose();
+    case PilotAction::kFindRadio:
+      return pilot.find();
+  }
+}
+
+void Bench::perform(OperatorWish wish, const EventConfig& event, Time now) {
+  ask(request_of(wish, event), describe_event(event), now);
+}
+
+void Bench::swap_module(const EventConfig& event, Time now) {
+  ask(autopilot::SwapModule{event.swap, event.kind}, describe_event(event), now);
+  const ModuleSettings* settings = loaded_.settings_of(event.swap, event.kind);
+  if (settings == nullptr) return;
+  for (const auto& [path, value] : settings->values) autopilot_->parameters().set(path, value);
+}
+
+void Bench::ask(const autopilot::Request& request, const std::string& what, Time now) {
+  const autopilot::RequestOutcome outcome = autopilot_->request(request);
+  if (judge_ == nullptr) {
+    if (!outcome.accepted)
+      throw std::invalid_argument("waypoint: the planner refuses the route: " + outcome.reason);
+    return;
+  }
+  judge_->event(now, outcome.accepted ? "request" : "refused",
+                outcome.accepted ? what : what + ": " + outcome.reason);
+}
+
+}  // namespace ironbird::scenarios

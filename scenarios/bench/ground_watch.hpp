@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string_view>
+
+#include "simulator/types/truth.hpp"
+
+namespace ironbird::scenarios {
+
+/// The pilot's eyes: sees the vehicle leave the ground and come to rest on it again.
+class GroundWatch {
+ public:
+  /// @return "lifted_off" when the vehicle lost the ground for the first time since it stood on it, "landed"
+  /// when it has touched the ground for half a second since then, otherwise nothing
+  std::optional<std::string_view> observe(const simulator::Truth& truth);
+
+ private:
+  bool airborne_ = false;
+  simulator::Time contact_since_{-1};
+  simulator::Time free_since_{-1};
+};
+
+}  // namespace ironbird::scenarios

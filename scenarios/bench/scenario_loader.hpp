@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "autopilot/autopilot.hpp"
+#include "scenarios/bench/scenario.hpp"
+#include "scenarios/config/config_error.hpp"
+
+namespace ironbird::scenarios {
+
+/// What the command line changes in a scenario.
+struct Overrides {
+  std::vector<std::pair<std::string, std::string>> settings;  ///< path and text of each `--set`
+  std::optional<std::uint64_t> seed;
+};
+
+/// Parameters of the autopilot that differ from their defaults, for one slot and one kind of module.
+struct ModuleSettings {
+  std::string slot;
+  std::string kind;
+  std::vector<std::pair<std::string, autopilot::ParameterValue>> values;  ///< path in the parameter table
+};
+
+/// A scenario with everything that it refers to, read and checked.
+struct LoadedScenario {
+  std::filesystem::path file;
+  std::filesystem::path project_root;  ///< what "models/…" is relative to
+  std::string name;                    ///< of the file, without its ending
+  Scenario scenario;
+  autopilot::AutopilotConfig autopilot;
+  std::vector<ModuleSettings> modules;
+  std::string effective_config;  ///< the whole configuration as TOML
+  std::string digest;            ///< SHA-256 of it
+  std::vector<std::pair<std::string, std::string>>
+      places;  ///< where each table was read: path, file:line:column
+
+  /// The settings for a module of this kind in this slot.
+  const ModuleSettings* settings_of(const std::string& slot, const std::string& kind) const;
+
+  /// The error with the place in the files that it is about, as far as its first words are a path of the
+  /// configuration.
+  ConfigError located(const std::invalid_argument& error) const;
+};
+
+/// Reads a scenario, its includes and its vehicle's files, and checks everything that can be checked without
+/// flying.
+/// @param modules  the kinds that `[autopilot]` can name
+/// @throws ConfigError with one line for each finding
+LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides& overrides,
+                             const autopilot::Modules& modules);
+
+}  // namespace ironbird::scenarios

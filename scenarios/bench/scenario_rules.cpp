@@ -1,0 +1,145 @@
+#include "scenarios/bench/scenario_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "scenarios/config/nearest_name.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+template <class Enum>
+std::string name_of_value(Enum value) {
+  for (const auto& [enumerator, name] : enumerators(value)) {
+    if (enumerator == value) return std::string(name);
+  }
+  return "?";
+}
+
+int deeds_of(const EventConfig& event) {
+  return static_cast<int>(event.fault.has_value()) + static_cast<int>(event.pilot.has_value()) +
+         static_cast<int>(event.request.has_value()) + static_cast<int>(event.add_waypoint.has_value()) +
+         static_cast<int>(event.remove_waypoint.has_value()) + static_cast<int>(event.setpoint.has_value()) +
+         static_cast<int>(!event.swap.empty()) + static_cast<int>(!event.set.empty());
+}
+
+class Rules {
+ public:
+  explicit Rules(const LoadedScenario& loaded) : loaded_(loaded) {}
+
+  std::vector<std::string> findings() {
+    check_field();
+    check_waypoints();
+    check_events();
+    check_cameras();
+    return findings_;
+  }
+
+ private:
+  void check_field() {
+    const std::filesystem::path field = loaded_.project_root / loaded_.scenario.field;
+    if (!loaded_.scenario.field.empty() && !std::filesystem::exists(field)) {
+      report("field = \"" + loaded_.scenario.field +
+             "\": there is no such file; fields are in models/fields");
+    }
+  }
+
+  void check_waypoints() {
+    const auto& waypoints = loaded_.scenario.waypoints;
+    for (std::size_t i = 0; i < waypoints.size(); ++i) {
+      const std::string path = "waypoint[" + std::to_string(i) + "]";
+      if (!waypoints[i].p_N.allFinite()) report(path + ".p_N: every number must be finite");
+      if (!std::isfinite(waypoints[i].heading)) report(path + ".heading: must be finite");
+    }
+    if (loaded_.scenario.cyclic && waypoints.size() < 2) {
+      report("cyclic = true: a round needs at least two waypoints, found " +
+             std::to_string(waypoints.size()));
+    }
+  }
+
+  void check_events() {
+    const auto& events = loaded_.scenario.events;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      const std::string path = "event[" + std::to_string(i) + "]";
+      const EventConfig& event = events[i];
+      if (deeds_of(event) != 1) {
+        report(path + ": does " + std::to_string(deeds_of(event)) +
+               " things, must do exactly one of fault, pilot, request, add_waypoint, remove_waypoint, "
+               "setpoint, swap, set");
+      }
+      if (!event.swap.empty() && event.kind.empty())
+        report(path + ".swap: needs the kind of the new module in `kind`");
+      if (event.setpoint) check_setpoint(path, *event.setpoint);
+    }
+  }
+
+  void check_setpoint(const std::string& path, const SetpointConfig& setpoint) {
+    try {
+      only_setpoint(setpoint);
+    } catch (const std::invalid_argument& error) {
+      report(path + ".setpoint: " + error.what());
+    }
+  }
+
+  void check_cameras() {
+    std::vector<std::string> names = {"chase", "top"};
+    for (const CameraConfig& camera : loaded_.scenario.cameras) names.push_back(camera.name);
+    const auto check = [&](const std::string& path, const std::string& name) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) {
+        const std::string nearest = nearest_name(name, names);
+        report(path + ".camera = \"" + name + "\": there is no such camera; did you mean \"" +
+               (nearest.empty() ? "chase" : nearest) + "\"?");
+      }
+    };
+    for (std::size_t i = 0; i < loaded_.scenario.snapshots.size(); ++i) {
+      check("snapshot[" + std::to_string(i) + "]", loaded_.scenario.snapshots[i].camera);
+    }
+    for (std::size_t i = 0; i < loaded_.scenario.cuts.size(); ++i) {
+      check("cut[" + std::to_string(i) + "]", loaded_.scenario.cuts[i].camera);
+    }
+  }
+
+  void report(const std::string& finding) {
+    findings_.push_back(loaded_.located(std::invalid_argument(finding)).what());
+  }
+
+  const LoadedScenario& loaded_;
+  std::vector<std::string> findings_;
+};
+
+}  // namespace
+
+void check_rules(const LoadedScenario& loaded) {
+  std::vector<std::string> findings = Rules(loaded).findings();
+  if (!findings.empty()) throw ConfigError(std::move(findings));
+}
+
+autopilot::ControlSetpoint only_setpoint(const SetpointConfig& config) {
+  std::vector<autopilot::ControlSetpoint> given;
+  SetpointConfig::describe(config, [&](const char*, const auto& entry, const char*, const char*) {
+    if (entry) given.emplace_back(*entry);
+  });
+  if (given.size() != 1) {
+    throw std::invalid_argument("gives " + std::to_string(given.size()) +
+                                " entry points, must give exactly one");
+  }
+  return given.front();
+}
+
+std::string describe_event(const EventConfig& event) {
+  if (!event.name.empty()) return event.name;
+  if (event.fault) return name_of_value(*event.fault);
+  if (event.pilot) return name_of_value(*event.pilot);
+  if (event.request) return name_of_value(*event.request);
+  if (event.add_waypoint) return "add_waypoint";
+  if (event.remove_waypoint) return "remove_waypoint";
+  if (event.setpoint) return "setpoint";
+  if (!event.swap.empty()) return event.swap + " " + event.kind;
+  return event.set;
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "scenarios/bench/scenario_loader.hpp"
+
+namespace ironbird::scenarios {
+
+/// What a scenario must obey beyond the types and bounds of its single values: each event does exactly one
+/// thing, names of cameras and of faults' rotors exist, there is something to fly, the field is there.
+/// @throws ConfigError with one line for each finding
+void check_rules(const LoadedScenario& loaded);
+
+/// The one setpoint that the table gives. @throws std::invalid_argument when there is none or more than one
+autopilot::ControlSetpoint only_setpoint(const SetpointConfig& config);
+
+/// What an event does, for the log: its name, or a short text made from its deed.
+std::string describe_event(const EventConfig& event);
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,51 @@
+#include "scenarios/bench/script.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace ironbird::scenarios {
+
+std::size_t Script::add(const std::string& after, Time delay) {
+  Item item{after, delay, std::nullopt, false};
+  if (after.empty()) item.due = delay;
+  items_.push_back(item);
+  find_earliest();
+  return items_.size() - 1;
+}
+
+void Script::happened(std::string_view name, Time now) {
+  for (Item& item : items_) {
+    if (!item.due && item.after == name) item.due = now + item.delay;
+  }
+  find_earliest();
+}
+
+std::optional<std::size_t> Script::next_due(Time now) {
+  if (now < earliest_) return std::nullopt;
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const Item& item = items_[i];
+    if (item.given_out || !item.due || *item.due > now) continue;
+    if (!found || *item.due < *items_[*found].due) found = i;
+  }
+  if (found) items_[*found].given_out = true;
+  find_earliest();
+  return found;
+}
+
+void Script::find_earliest() {
+  earliest_ = Time::max();
+  for (const Item& item : items_) {
+    if (!item.given_out && item.due) earliest_ = std::min(earliest_, *item.due);
+  }
+}
+
+std::vector<std::string> Script::still_waited_for() const {
+  std::set<std::string> names;
+  for (const Item& item : items_) {
+    if (!item.due) names.insert(item.after);
+  }
+  return {names.begin(), names.end()};
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ironbird::scenarios {
+
+/// Which of a scenario's items are due: those with a time of their own, and those that wait for an event to
+/// happen first.
+///
+/// Items are numbered in the order in which they were added, and become due in that order when their times
+/// are equal.
+class Script {
+ public:
+  using Time = std::chrono::nanoseconds;
+
+  /// Adds an item that is due `delay` after the start, or, with `after` not empty, after the event of that
+  /// name first happened.
+  /// @return its number
+  std::size_t add(const std::string& after, Time delay);
+
+  /// An event happened: items waiting for it get their time. Later events of the same name change nothing.
+  void happened(std::string_view name, Time now);
+
+  /// The next item that is due at `now` and was not given out before, or nothing.
+  std::optional<std::size_t> next_due(Time now);
+
+  /// Names of the events that items still wait for, sorted, each once.
+  std::vector<std::string> still_waited_for() const;
+
+ private:
+  struct Item {
+    std::string after;
+    Time delay{};
+    std::optional<Time> due;
+    bool given_out = false;
+  };
+
+  std::vector<Item> items_;
+  Time earliest_{Time::max()};
+  void find_earliest();
+};
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,55 @@
+#include "scenarios/bench/script.hpp"
+
+#include <gtest/gtest.h>
+
+namespace ironbird::scenarios {
+namespace {
+
+using std::chrono::seconds;
+
+std::vector<std::size_t> all_due(Script& script, Script::Time now) {
+  std::vector<std::size_t> items;
+  while (const auto item = script.next_due(now)) items.push_back(*item);
+  return items;
+}
+
+TEST(ScriptTest, GivesOutItemsAtTheirTimeAndOnce) {
+  Script script;
+  script.add("", seconds(2));
+  script.add("", seconds(1));
+  EXPECT_TRUE(all_due(script, seconds(0)).empty());
+  EXPECT_EQ(all_due(script, seconds(1)), (std::vector<std::size_t>{1}));
+  EXPECT_EQ(all_due(script, seconds(5)), (std::vector<std::size_t>{0}));
+  EXPECT_TRUE(all_due(script, seconds(9)).empty());
+}
+
+TEST(ScriptTest, KeepsTheOrderOfTheFileForEqualTimes) {
+  Script script;
+  script.add("", seconds(1));
+  script.add("", seconds(1));
+  script.add("", seconds(0));
+  EXPECT_EQ(all_due(script, seconds(1)), (std::vector<std::size_t>{2, 0, 1}));
+}
+
+TEST(ScriptTest, CountsFromTheFirstEventOfAName) {
+  Script script;
+  script.add("take_off", seconds(3));
+  EXPECT_TRUE(all_due(script, seconds(100)).empty());
+  script.happened("take_off", seconds(10));
+  script.happened("take_off", seconds(20));
+  EXPECT_TRUE(all_due(script, seconds(12)).empty());
+  EXPECT_EQ(all_due(script, seconds(13)), (std::vector<std::size_t>{0}));
+}
+
+TEST(ScriptTest, TellsWhatItStillWaitsFor) {
+  Script script;
+  script.add("b", seconds(0));
+  script.add("a", seconds(0));
+  script.add("b", seconds(1));
+  EXPECT_EQ(script.still_waited_for(), (std::vector<std::string>{"a", "b"}));
+  script.happened("b", seconds(0));
+  EXPECT_EQ(script.still_waited_for(), (std::vector<std::string>{"a"}));
+}
+
+}  // namespace
+}  // namespace ironbird::scenarios

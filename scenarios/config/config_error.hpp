@@ -1,0 +1,30 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ironbird::scenarios {
+
+/// What is wrong with a configuration, one line for each finding:
+/// `file:line:column: path = value: what is wrong, what is allowed`.
+class ConfigError : public std::runtime_error {
+ public:
+  explicit ConfigError(std::vector<std::string> findings)
+      : std::runtime_error(joined(findings)), findings_(std::move(findings)) {}
+  explicit ConfigError(const std::string& finding) : ConfigError(std::vector<std::string>{finding}) {}
+
+  const std::vector<std::string>& findings() const { return findings_; }
+
+ private:
+  static std::string joined(const std::vector<std::string>& findings) {
+    std::string text;
+    for (const std::string& finding : findings) text += (text.empty() ? "" : "\n") + finding;
+    return text;
+  }
+
+  std::vector<std::string> findings_;
+};
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace ironbird::scenarios {
+
+/// Reads a TOML file with everything that it includes: `include = ["other.toml", ...]`, each path relative to
+/// the file, else to `project_root`.
+///
+/// Included tables lie below the including file: its own values win, tables merge, arrays replace. Of several
+/// included files a later one wins. Every node keeps the file, line and column that it came from.
+/// @throws ConfigError for a file that is missing or no TOML, and for files that include each other in a
+/// circle
+toml::table load_toml(const std::filesystem::path& file, const std::filesystem::path& project_root = ".");
+
+/// The same for a text; `name` stands for the file in messages.
+toml::table parse_toml(std::string_view text, std::string_view name);
+
+/// Lays `over` on `under`: values of `over` win, tables merge, arrays replace.
+void merge_toml(toml::table& under, toml::table&& over);
+
+/// Sets one value of a table, as `--set path=text` asks. Steps of the path are names divided by dots; an
+/// element of an array is `[i]`. A text that is no TOML value is taken as a string, so that `25 deg` needs no
+/// quotes. Tables are made when missing.
+/// @throws ConfigError when the path leads through something that is no table, or to no element
+void set_value(toml::table& root, std::string_view path, std::string_view text);
+
+/// `file:line:column` of a node or key, or just the name for a text that was no file.
+std::string location(const toml::source_region& source);
+
+}  // namespace ironbird::scenarios

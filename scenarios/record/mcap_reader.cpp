@@ -1,0 +1,156 @@
+#include "scenarios/record/mcap_reader.hpp"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include "scenarios/record/byte_cursor.hpp"
+#include "scenarios/record/crc32.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+/// A chunk that claims more than this is damaged, not large.
+constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 30;
+
+McapMetadata read_map(ByteCursor& cursor) {
+  ByteCursor pairs(cursor.take(cursor.get<std::uint32_t>()));
+  McapMetadata values;
+  while (!pairs.rest().empty()) {
+    const std::string_view name = pairs.text();
+    values[std::string(name)] = pairs.text();
+  }
+  return values;
+}
+
+McapMessage read_message(ByteCursor& cursor) {
+  McapMessage message;
+  message.channel = cursor.get<std::uint16_t>();
+  message.sequence = cursor.get<std::uint32_t>();
+  message.log_time = cursor.get<std::uint64_t>();
+  message.publish_time = cursor.get<std::uint64_t>();
+  message.data = cursor.rest();
+  return message;
+}
+
+}  // namespace
+
+McapReader::McapReader(const std::filesystem::path& file) : path_(file) {
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  if (!stream || !std::filesystem::is_regular_file(file)) {
+    throw std::runtime_error(file.string() + ": cannot be opened");
+  }
+  bytes_.resize(static_cast<std::size_t>(stream.tellg()));
+  stream.seekg(0);
+  stream.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size()));
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
+
+  const std::size_t magic = std::min(bytes_.size(), kMcapMagic.size());
+  if (!std::equal(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(magic), kMcapMagic.begin())) {
+    throw std::runtime_error(file.string() + ": is not a log: it does not begin like an MCAP file");
+  }
+  record_ = bytes_.data();
+  scan(std::span<const std::uint8_t>(bytes_).subspan(magic), false);
+}
+
+void McapReader::fail(const std::string& what) const {
+  throw std::runtime_error(path_.string() + ": byte " + std::to_string(record_ - bytes_.data()) + ": " +
+                           what);
+}
+
+void McapReader::scan(std::span<const std::uint8_t> records, bool inside_chunk) {
+  while (records.size() >= kMcapRecordHead) {
+    if (!inside_chunk) record_ = records.data();
+    ByteCursor cursor(records);
+    const auto opcode = static_cast<McapOpcode>(cursor.get<std::uint8_t>());
+    const auto length = cursor.get<std::uint64_t>();
+    if (length > cursor.rest().size()) break;
+    const auto content = cursor.take(length);
+    records = cursor.rest();
+    try {
+      if (!take(opcode, content, inside_chunk)) {
+        truncated_ = !std::equal(records.begin(), records.end(), kMcapMagic.begin(), kMcapMagic.end());
+        return;
+      }
+    } catch (const std::out_of_range&) {
+      fail("a record is shorter than its kind needs");
+    }
+  }
+  if (inside_chunk && !records.empty()) fail("a chunk ends inside a record");
+}
+
+bool McapReader::take(McapOpcode opcode, std::span<const std::uint8_t> content, bool inside_chunk) {
+  ByteCursor cursor(content);
+  switch (opcode) {
+    case McapOpcode::kHeader:
+      profile_ = cursor.text();
+      library_ = cursor.text();
+      break;
+    case McapOpcode::kSchema: {
+      const auto id = cursor.get<std::uint16_t>();
+      McapSchema& schema = schemas_[id];
+      schema.name = cursor.text();
+      schema.encoding = cursor.text();
+      schema.text = cursor.text();
+      break;
+    }
+    case McapOpcode::kChannel: {
+      const auto id = cursor.get<std::uint16_t>();
+      McapChannel& channel = channels_[id];
+      channel.id = id;
+      channel.schema = cursor.get<std::uint16_t>();
+      channel.topic = cursor.text();
+      channel.encoding = cursor.text();
+      channel.metadata = read_map(cursor);
+      break;
+    }
+    case McapOpcode::kMessage:
+      messages_.push_back(read_message(cursor));
+      if (!channels_.contains(messages_.back().channel)) fail("a message comes before its channel");
+      break;
+    case McapOpcode::kChunk:
+      if (inside_chunk) fail("a chunk lies inside a chunk");
+      take_chunk(content);
+      break;
+    case McapOpcode::kMetadata: {
+      McapMetadata& values = metadata_[std::string(cursor.text())];
+      for (auto& [name, value] : read_map(cursor)) values[name] = value;
+      break;
+    }
+    case McapOpcode::kFooter:
+      return false;
+    default:  // indexes, statistics, attachments, and kinds of record that came later
+      break;
+  }
+  return true;
+}
+
+void McapReader::take_chunk(std::span<const std::uint8_t> content) {
+  ByteCursor cursor(content);
+  cursor.take(8 + 8);  // times of the first and last message
+  const auto size = cursor.get<std::uint64_t>();
+  const auto crc = cursor.get<std::uint32_t>();
+  const std::string_view compression = cursor.text();
+  auto records = cursor.take(cursor.get<std::uint64_t>());
+  if (compression == "zstd") {
+    records = decompressed(records, size);
+  } else if (!compression.empty()) {
+    fail("a chunk is compressed with '" + std::string(compression) + "', readable are zstd and none");
+  }
+  if (records.size() != size) fail("a chunk has another size than it says");
+  if (crc != 0 && crc != crc32(records)) fail("a chunk is damaged: its checksum is wrong");
+  scan(records, true);
+}
+
+std::span<const std::uint8_t> McapReader::decompressed(std::span<const std::uint8_t> stored,
+                                                       std::uint64_t size) {
+  if (size > kLargestChunk) fail("a chunk claims " + std::to_string(size) + " bytes");
+  std::vector<std::uint8_t>& out = unpacked_.emplace_back(size);
+  const std::size_t result = ZSTD_decompress(out.data(), out.size(), stored.data(), stored.size());
+  if (ZSTD_isError(result) != 0) fail(std::string("a chunk is damaged: ") + ZSTD_getErrorName(result));
+  return {out.data(), result};
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,341 @@
+#include "scenarios/report/figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenarios/report/flight_data.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr const char* kTruthTopic = "/truth/state";
+constexpr const char* kEstimateTopic = "/autopilot/estimate";
+constexpr const char* kTrajectory = "/autopilot/trajectory";
+constexpr const char* kFlight = "/autopilot/flight";
+constexpr const char* kOutputs = "/fcu/output_raw";
+constexpr const char* kSetpoint = "/autopilot/setpoint";
+
+/// The parts that a curve can play.
+enum class Role { kCommand, kEstimate, kTruth };
+
+std::string name_of(Role role) {
+  if (role == Role::kCommand) return "command";
+  return role == Role::kEstimate ? "estimate" : "truth";
+}
+
+/// Style of one curve: by role when there is one run, by run when there are several.
+std::string style_of(Role role, std::size_t run, std::size_t runs) {
+  if (runs == 1)
+    return role == Role::kCommand ? "command plain" : role == Role::kEstimate ? "c0" : "c1 under";
+  const std::string colour = "c" + std::to_string(run % 8);
+  return colour + (role == Role::kCommand ? " command" : role == Role::kEstimate ? " dashed" : "");
+}
+
+std::string label_of(Role role, const ReportRun& run, std::size_t runs) {
+  return runs == 1 ? name_of(role) : run.label() + " " + name_of(role);
+}
+
+/// Collects the curves of one panel.
+class PanelMaker {
+ public:
+  PanelMaker(const std::vector<ReportRun>& runs, std::string title, std::string unit, double least_span)
+      : runs_(runs) {
+    panel_.title = std::move(title);
+    panel_.unit = std::move(unit);
+    panel_.least_span = least_span;
+  }
+
+  void add(Role role, std::size_t run, Curve curve, std::string_view topic) {
+    add(label_of(role, runs_[run], runs_.size()), style_of(role, run, runs_.size()), std::move(curve), topic);
+  }
+  void add(std::string name, std::string style, Curve curve, std::string_view topic) {
+    if (curve.empty()) {
+      missing_.emplace_back(topic);
+      return;
+    }
+    panel_.series.push_back(
+        {std::move(name), std::move(style), std::move(curve.time), std::move(curve.value)});
+  }
+  void add_bound(std::size_t run, const Curve& sigma) {
+    constexpr double kSigmas = 3.0;
+    if (sigma.empty()) return;
+    plot::Strip strip{runs_.size() == 1 ? "3\u03c3" : "", "c" + std::to_string(run % 8), sigma.time, {}, {}};
+    strip.high = scaled(sigma, kSigmas).value;
+    strip.low = scaled(sigma, -kSigmas).value;
+    panel_.strips.push_back(std::move(strip));
+  }
+
+  plot::Panel done() && {
+    if (panel_.series.empty()) panel_.strips.clear();
+    std::sort(missing_.begin(), missing_.end());
+    missing_.erase(std::unique(missing_.begin(), missing_.end()), missing_.end());
+    panel_.missing = "not in the log:";
+    for (const std::string& topic : missing_) panel_.missing += " " + topic;
+    return std::move(panel_);
+  }
+
+ private:
+  const std::vector<ReportRun>& runs_;
+  plot::Panel panel_;
+  std::vector<std::string> missing_;
+};
+
+plot::Panel axis_panel(const std::vector<ReportRun>& runs, const char* title, const char* axis) {
+  PanelMaker maker(runs, title, "m", 0.5);
+  const std::string suffix(axis);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    maker.add(Role::kCommand, i, curve_of(runs[i], kTrajectory, "p_N" + suffix), kTrajectory);
+    maker.add(Role::kTruth, i, curve_of(runs[i], kTruthTopic, "p_NB_N" + suffix), kTruthTopic);
+    maker.add(Role::kEstimate, i, curve_of(runs[i], kEstimateTopic, "p_NB_N" + suffix), kEstimateTopic);
+  }
+  return std::move(maker).done();
+}
+
+Curve degrees(const Curve& curve) {
+  return scaled(curve, kDegrees);
+}
+
+plot::Panel heading_panel(const std::vector<ReportRun>& runs) {
+  PanelMaker maker(runs, "heading", "deg", 4.0);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    maker.add(Role::kCommand, i, broken_at_wraps(degrees(curve_of(runs[i], kTrajectory, "heading"))),
+              kTrajectory);
+    maker.add(Role::kTruth, i, broken_at_wraps(degrees(angles_of(runs[i], kTruthTopic, "q_NB")[2])),
+              kTruthTopic);
+    maker.add(Role::kEstimate, i, broken_at_wraps(degrees(curve_of(runs[i], kEstimateTopic, "heading"))),
+              kEstimateTopic);
+  }
+  return std::move(maker).done();
+}
+
+/// The setpoint of an angle from whichever entry point of the controller is in use.
+Curve setpoint_angle(const ReportRun& run, const std::string& angle) {
+  const LogTopic* topic = run.log().topic(kSetpoint);
+  if (topic == nullptr) return {};
+  for (const std::string& field : topic->fields()) {
+    if (!field.ends_with("." + angle)) continue;
+    const std::vector<double>& column = topic->column(field);
+    const bool used =
+        std::any_of(column.begin(), column.end(), [](double v) { return std::isfinite(v) && v != 0.0; });
+    if (used) return {topic->time(), column};
+  }
+  return {};
+}
+
+plot::Panel tilt_panel(const std::vector<ReportRun>& runs, const char* name, std::size_t axis) {
+  PanelMaker maker(runs, name, "deg", 2.0);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    maker.add(Role::kCommand, i, degrees(setpoint_angle(runs[i], name)), kSetpoint);
+    maker.add(Role::kTruth, i, degrees(angles_of(runs[i], kTruthTopic, "q_NB")[axis]), kTruthTopic);
+    maker.add(Role::kEstimate, i, degrees(curve_of(runs[i], kEstimateTopic, name)), kEstimateTopic);
+  }
+  return std::move(maker).done();
+}
+
+Curve length_of(const ReportRun& run, std::string_view topic, const std::string& field) {
+  Curve out = curve_of(run, topic, field + ".x");
+  const Curve y = curve_of(run, topic, field + ".y"), z = curve_of(run, topic, field + ".z");
+  if (y.value.size() != out.value.size() || z.value.size() != out.value.size()) return {};
+  for (std::size_t i = 0; i < out.value.size(); ++i) {
+    out.value[i] = std::sqrt(out.value[i] * out.value[i] + y.value[i] * y.value[i] + z.value[i] * z.value[i]);
+  }
+  return out;
+}
+
+plot::Panel speed_panel(const std::vector<ReportRun>& runs) {
+  PanelMaker maker(runs, "speed", "m/s", 0.5);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    maker.add(Role::kCommand, i, length_of(runs[i], kTrajectory, "v_N"), kTrajectory);
+    maker.add(Role::kTruth, i, length_of(runs[i], kTruthTopic, "v_NB_N"), kTruthTopic);
+    maker.add(Role::kEstimate, i, length_of(runs[i], kEstimateTopic, "v_NB_B"), kEstimateTopic);
+  }
+  return std::move(maker).done();
+}
+
+struct ErrorAxis {
+  const char* title;
+  const char* sigma;
+};
+
+plot::TimeStack error_stack(const std::vector<ReportRun>& runs, const char* title, const char* unit,
+                            double factor, double least_span, Curves (*errors)(const ReportRun&),
+                            const std::array<ErrorAxis, 3>& axes) {
+  plot::TimeStack stack{title, {}, 372.0, 104.0};
+  std::vector<Curves> found;
+  for (const ReportRun& run : runs) found.push_back(errors(run));
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    PanelMaker maker(runs, axes[axis].title, unit, least_span);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      maker.add_bound(i, scaled(curve_of(runs[i], kEstimateTopic, axes[axis].sigma), factor));
+      maker.add(runs.size() == 1 ? "error" : runs[i].label(), "c" + std::to_string(i % 8),
+                scaled(found[i][axis], factor), std::string(kTruthTopic) + ", " + kEstimateTopic);
+    }
+    stack.panels.push_back(std::move(maker).done());
+  }
+  return stack;
+}
+
+bool is_used(const Curve& curve) {
+  return std::any_of(curve.value.begin(), curve.value.end(),
+                     [](double v) { return std::isfinite(v) && v != 0.0; });
+}
+
+plot::Panel rotor_panel(const std::vector<ReportRun>& runs, const char* title, const char* unit,
+                        const char* topic, const std::string& field, double least_span) {
+  constexpr std::size_t kMostRotors = 8;
+  PanelMaker maker(runs, title, unit, least_span);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    bool any = false;
+    for (std::size_t rotor = 0; rotor < kMostRotors; ++rotor) {
+      Curve curve = curve_of(runs[i], topic, field + "[" + std::to_string(rotor) + "]");
+      if (!is_used(curve)) continue;
+      any = true;
+      const std::string name = runs.size() == 1 ? std::to_string(rotor + 1)
+                               : rotor == 0     ? runs[i].label()
+                                                : "";
+      maker.add(name, "thin c" + std::to_string(runs.size() == 1 ? rotor : i % 8), std::move(curve), topic);
+    }
+    if (!any) maker.add("", "", {}, topic);
+  }
+  return std::move(maker).done();
+}
+
+plot::Panel battery_panel(const std::vector<ReportRun>& runs, const char* title, const char* unit,
+                          const char* field, double least_span) {
+  PanelMaker maker(runs, title, unit, least_span);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    Curve curve = curve_of(runs[i], kTruthTopic, field);
+    const std::string name = runs.size() == 1 ? "" : runs[i].label();
+    maker.add(name, "c" + std::to_string(i % 8), is_used(curve) ? std::move(curve) : Curve{}, kTruthTopic);
+  }
+  return std::move(maker).done();
+}
+
+plot::Track track_of(const ReportRun& run, Role role, std::size_t index, std::size_t runs) {
+  const char* topic = role == Role::kTruth ? kTruthTopic : kEstimateTopic;
+  plot::Track track{label_of(role, run, runs), style_of(role, index, runs), {}};
+  const std::vector<double>& north = run.column(topic, "p_NB_N.x");
+  const std::vector<double>& east = run.column(topic, "p_NB_N.y");
+  for (std::size_t k = 0; k < std::min(north.size(), east.size()); ++k)
+    track.points.push_back({east[k], north[k]});
+  return track;
+}
+
+/// The phases of the first run that has any.
+std::vector<plot::Stretch> phases_of(const ReportRun& run) {
+  std::vector<plot::Stretch> out;
+  const Curve phase = curve_of(run, kFlight, "phase");
+  for (std::size_t i = 0; i < phase.time.size(); ++i) {
+    const auto number = static_cast<std::size_t>(std::max(0.0, phase.value[i]));
+    const auto names = enumerators(autopilot::FlightPhase{});
+    const std::string name =
+        number < names.size() ? std::string(names[number].second) : std::to_string(number);
+    if (!out.empty()) out.back().to = phase.time[i];
+    if (out.empty() || out.back().name != name) out.push_back({phase.time[i], phase.time[i], name, name});
+  }
+  return out;
+}
+
+}  // namespace
+
+plot::TimeFrame time_frame(const std::vector<ReportRun>& runs) {
+  plot::TimeFrame frame;
+  for (const ReportRun& run : runs) {
+    for (const char* topic : {kTruthTopic, kEstimateTopic, kTrajectory, kFlight}) {
+      const std::vector<double>& time = run.time(topic);
+      if (time.empty()) continue;
+      frame.range.include(time.front());
+      frame.range.include(time.back());
+    }
+  }
+  if (runs.empty()) return frame;
+  frame.stretches = phases_of(runs.front());
+  for (const RunEvent& event : runs.front().events()) {
+    if (event.kind == "phase" || event.kind == "health" || event.kind == "arming") continue;
+    const bool is_fault = event.kind.starts_with("fault") || event.kind == "gust";
+    const std::string ending = event.kind.ends_with("_end") ? " ends" : "";
+    frame.marks.push_back(
+        {event.time, event.kind + ": " + event.text, event.text + ending, is_fault ? "fault" : ""});
+  }
+  return frame;
+}
+
+plot::Plane path_from_above(const std::vector<ReportRun>& runs) {
+  plot::Plane plane{
+      "Path from above", "east", "north", "m", {}, {}, "not in the log: /truth/state, /autopilot/estimate"};
+  std::vector<std::array<double, 3>> waypoints;
+  if (!runs.empty()) waypoints = waypoints_of(runs.front());
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    plane.places.push_back({std::to_string(i + 1), {waypoints[i][1], waypoints[i][0]}});
+  }
+  plot::Track planned{"planned", "command plain", {}};
+  for (const plot::Place& place : plane.places) planned.points.push_back(place.point);
+  if (!planned.points.empty() && is_cyclic(runs.front())) planned.points.push_back(planned.points.front());
+  if (!planned.points.empty()) plane.tracks.push_back(std::move(planned));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (const Role role : {Role::kTruth, Role::kEstimate}) {
+      plot::Track track = track_of(runs[i], role, i, runs.size());
+      if (!track.points.empty()) plane.tracks.push_back(std::move(track));
+    }
+  }
+  return plane;
+}
+
+plot::TimeStack position_and_heading(const std::vector<ReportRun>& runs) {
+  plot::TimeStack stack{"Position and heading against command", {}, 780.0, 112.0};
+  stack.panels.push_back(axis_panel(runs, "north", ".x"));
+  stack.panels.push_back(axis_panel(runs, "east", ".y"));
+  stack.panels.push_back(axis_panel(runs, "down", ".z"));
+  stack.panels.push_back(heading_panel(runs));
+  return stack;
+}
+
+plot::TimeStack attitude_and_speed(const std::vector<ReportRun>& runs) {
+  plot::TimeStack stack{"Attitude and speed", {}, 1180.0, 100.0};
+  stack.panels.push_back(tilt_panel(runs, "roll", 0));
+  stack.panels.push_back(tilt_panel(runs, "pitch", 1));
+  stack.panels.push_back(speed_panel(runs));
+  return stack;
+}
+
+plot::TimeStack path_errors(const std::vector<ReportRun>& runs) {
+  plot::TimeStack stack{"Distance from the planned path", {}, 1180.0, 120.0};
+  PanelMaker maker(runs, "distance to the waypoints' polyline, first to last waypoint", "m", 0.02);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::string needed = ", /autopilot/route, /autopilot/trajectory";
+    maker.add(Role::kTruth, i, path_distance(runs[i], kTruthTopic), kTruthTopic + needed);
+    maker.add(Role::kEstimate, i, path_distance(runs[i], kEstimateTopic), kEstimateTopic + needed);
+  }
+  stack.panels.push_back(std::move(maker).done());
+  return stack;
+}
+
+plot::TimeStack position_errors(const std::vector<ReportRun>& runs) {
+  return error_stack(runs, "Position error", "m", 1.0, 0.02, position_error,
+                     {{{"north", "sigma_p_N.x"}, {"east", "sigma_p_N.y"}, {"down", "sigma_p_N.z"}}});
+}
+
+plot::TimeStack velocity_errors(const std::vector<ReportRun>& runs) {
+  return error_stack(runs, "Velocity error", "m/s", 1.0, 0.01, velocity_error,
+                     {{{"forward", "sigma_v_B.x"}, {"right", "sigma_v_B.y"}, {"down", "sigma_v_B.z"}}});
+}
+
+plot::TimeStack attitude_errors(const std::vector<ReportRun>& runs) {
+  return error_stack(
+      runs, "Attitude error", "deg", kDegrees, 0.05, attitude_error,
+      {{{"roll", "sigma_attitude.x"}, {"pitch", "sigma_attitude.y"}, {"heading", "sigma_attitude.z"}}});
+}
+
+plot::TimeStack motors_and_battery(const std::vector<ReportRun>& runs) {
+  plot::TimeStack stack{"Motors and battery", {}, 1180.0, 100.0};
+  stack.panels.push_back(rotor_panel(runs, "motor outputs", "0 to 1", kOutputs, "values", 0.05));
+  stack.panels.push_back(rotor_panel(runs, "rotor speeds", "rad/s", kTruthTopic, "rotor_speed", 20.0));
+  stack.panels.push_back(battery_panel(runs, "battery voltage", "V", "battery_voltage", 0.5));
+  stack.panels.push_back(battery_panel(runs, "battery current", "A", "battery_current", 2.0));
+  return stack;
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "scenarios/report/report_run.hpp"
+
+namespace ironbird::scenarios {
+
+/// Numbers over time.
+struct Curve {
+  std::vector<double> time;   ///< s, rising
+  std::vector<double> value;  ///< as many
+  bool empty() const { return time.empty(); }
+};
+
+/// Three numbers over time.
+using Curves = std::array<Curve, 3>;
+
+/// What the log says about a column, with its times; empty when it says nothing.
+Curve curve_of(const ReportRun& run, std::string_view topic, std::string_view field);
+
+/// Roll, pitch, heading of the quaternions `<field>.w` …, rad.
+Curves angles_of(const ReportRun& run, std::string_view topic, const std::string& field);
+
+/// `curve` at other times, linear in between, held beyond its ends. Empty when `curve` is.
+Curve resampled(const Curve& curve, const std::vector<double>& time);
+
+/// The same for angles, rad: the short way round in between.
+Curve resampled_angle(const Curve& curve, const std::vector<double>& time);
+
+/// Estimate less truth. Axes: position north, east, down, m; velocity forward, right, down, m/s; roll, pitch,
+/// heading, rad. Empty where the log lacks one of the two.
+Curves position_error(const ReportRun& run);
+Curves velocity_error(const ReportRun& run);
+Curves attitude_error(const ReportRun& run);
+
+/// Multiplies every value.
+Curve scaled(Curve curve, double factor);
+
+/// Puts a gap where an angle jumps by more than half a turn, so that no line crosses the plot. Degrees.
+Curve broken_at_wraps(Curve curve);
+
+/// The last route in the log that has waypoints: its points in N, closed when it is cyclic.
+std::vector<std::array<double, 3>> waypoints_of(const ReportRun& run);
+
+/// True when the last route in the log is cyclic.
+bool is_cyclic(const ReportRun& run);
+
+/// Distance of the points of a topic to the waypoints' polyline from the first waypoint reached until the
+/// last, m.
+Curve path_distance(const ReportRun& run, std::string_view topic);
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,263 @@
+#include "scenarios/report/plot/time_stack.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/report/plot/svg.hpp"
+
+namespace ironbird::scenarios::plot {
+
+namespace {
+
+constexpr double kLeft = 62.0;         // px: room for the numbers of the y axis
+constexpr double kRight = 14.0;        // px
+constexpr double kLetter = 6.9;        // px: width of a letter, on the safe side
+constexpr double kNames = 13.0;        // px: names of marks, topmost
+constexpr double kLane = 35.0;         // px: names and the lane of phases above the first panel
+constexpr double kCaption = 22.0;      // px: title and legend above each panel
+constexpr double kBottom = 40.0;       // px: numbers and name of the time axis
+constexpr double kThinPerPixel = 1.0;  // slices per pixel
+constexpr double kTolerance = 0.12;    // px: what the eye does not see
+
+/// Where a stack's parts lie, px.
+struct Layout {
+  const TimeStack& stack;
+  Axis time;
+
+  double right() const { return stack.width - kRight; }
+  double top(std::size_t panel) const {
+    return kLane + kCaption + static_cast<double>(panel) * (stack.panel_height + kCaption);
+  }
+  double bottom(std::size_t panel) const { return top(panel) + stack.panel_height; }
+  double height() const { return bottom(stack.panels.size() - 1) + kBottom; }
+  double x(double t) const { return kLeft + (t - time.low) / (time.high - time.low) * (right() - kLeft); }
+};
+
+/// The y axis of one panel.
+struct Scale {
+  Axis axis;
+  double top = 0.0;
+  double bottom = 0.0;
+  double y(double value) const {
+    return bottom - (value - axis.low) / (axis.high - axis.low) * (bottom - top);
+  }
+};
+
+Axis value_axis(const Panel& panel, double panel_height) {
+  Range range;
+  for (const Series& series : panel.series) range.include(series.value);
+  for (const Strip& strip : panel.strips) {
+    // A bound that is still wide open must not flatten the curve inside it.
+    Range inner = range;
+    const double reach =
+        std::max(4.0 * std::max(std::abs(inner.low), std::abs(inner.high)), panel.least_span);
+    for (const double high : strip.high) range.include(std::clamp(high, -reach, reach));
+    for (const double low : strip.low) range.include(std::clamp(low, -reach, reach));
+  }
+  return roomy_axis(range, std::max(2, static_cast<int>(panel_height / 26.0)), panel.least_span);
+}
+
+std::vector<Point> to_pixels(std::vector<Point> points, const Layout& layout, const Scale& scale) {
+  for (Point& point : points) point = {layout.x(point.x), scale.y(point.y)};
+  return points;
+}
+
+/// The curve in pixels, thinned; runs between gaps are straightened on their own.
+std::string curve_data(const std::vector<double>& time, const std::vector<double>& value,
+                       const Layout& layout, const Scale& scale) {
+  const int bins = static_cast<int>((layout.right() - kLeft) * kThinPerPixel);
+  const std::vector<Point> points =
+      to_pixels(thin(time, value, layout.time.low, layout.time.high, bins), layout, scale);
+  std::string out;
+  std::vector<Point> run;
+  for (const Point& point : points) {
+    if (std::isfinite(point.y)) {
+      run.push_back(point);
+      continue;
+    }
+    out += path_data(straighten(run, kTolerance));
+    run.clear();
+  }
+  return out + path_data(straighten(run, kTolerance));
+}
+
+std::string strip_data(const Strip& strip, const Layout& layout, const Scale& scale) {
+  const int bins = static_cast<int>((layout.right() - kLeft) / 4.0);
+  std::vector<Point> edge, back;
+  for (const Point& p :
+       to_pixels(thin(strip.time, strip.high, layout.time.low, layout.time.high, bins), layout, scale)) {
+    if (std::isfinite(p.y)) edge.push_back({p.x, std::clamp(p.y, scale.top, scale.bottom)});
+  }
+  for (const Point& p :
+       to_pixels(thin(strip.time, strip.low, layout.time.low, layout.time.high, bins), layout, scale)) {
+    if (std::isfinite(p.y)) back.push_back({p.x, std::clamp(p.y, scale.top, scale.bottom)});
+  }
+  if (edge.size() < 2 || back.size() < 2) return "";
+  edge = straighten(edge, kTolerance);
+  back = straighten(back, kTolerance);
+  edge.insert(edge.end(), back.rbegin(), back.rend());
+  return path_data(edge) + "Z";
+}
+
+/// Title, unit and legend of a panel.
+std::string caption(const Panel& panel, const Layout& layout, std::size_t index) {
+  const double y = layout.top(index) - 7.0;
+  std::string out = "<text class=\"panel-title\" x=\"" + coordinate(kLeft) + "\" y=\"" + coordinate(y) +
+                    "\">" + escaped(panel.title);
+  if (!panel.unit.empty()) out += "<tspan class=\"unit\">  " + escaped(panel.unit) + "</tspan>";
+  out += "</text>";
+  double x = layout.right();
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (const Series& series : panel.series) entries.emplace_back(series.name, "curve " + series.style);
+  for (const Strip& strip : panel.strips) entries.emplace_back(strip.name, "strip " + strip.style);
+  std::reverse(entries.begin(), entries.end());
+  for (const auto& [name, style] : entries) {
+    if (name.empty()) continue;
+    x -= kLetter * static_cast<double>(name.size());
+    out += text(x, y, "legend", name);
+    out += style.starts_with("strip") ? rectangle(x - 22.0, y - 9.0, 16.0, 10.0, style)
+                                      : line(x - 22.0, y - 4.0, x - 6.0, y - 4.0, style);
+    x -= 30.0;
+  }
+  return out;
+}
+
+std::string grid(const Scale& scale, const Layout& layout) {
+  std::string out = rectangle(kLeft, scale.top, layout.right() - kLeft, scale.bottom - scale.top, "frame");
+  for (const double tick : scale.axis.ticks) {
+    const double y = scale.y(tick);
+    out += line(kLeft, y, layout.right(), y, std::abs(tick) < scale.axis.step * 1e-6 ? "grid zero" : "grid");
+    out += text(kLeft - 7.0, y + 4.0, "number y", scale.axis.label(tick));
+  }
+  return out;
+}
+
+/// Stretches and marks behind the curves of a panel, in the group that zooms. Plain: marks only, so that a
+/// strip keeps its colour.
+std::string backdrop(const TimeFrame& frame, const Layout& layout, double top, double bottom, bool plain) {
+  std::string out;
+  for (const Stretch& stretch : plain ? std::vector<Stretch>() : frame.stretches) {
+    const double from = layout.x(stretch.from), to = layout.x(stretch.to);
+    out += rectangle(from, top, std::max(0.0, to - from), bottom - top, "phase " + stretch.style);
+  }
+  for (const Mark& mark : frame.marks) {
+    out += line(layout.x(mark.time), top, layout.x(mark.time), bottom, "mark " + mark.style);
+  }
+  return out;
+}
+
+std::string draw_panel(const Panel& panel, const Layout& layout, std::size_t index, const TimeFrame& frame,
+                       const std::string& clip) {
+  const Scale scale{value_axis(panel, layout.stack.panel_height), layout.top(index), layout.bottom(index)};
+  std::string out = "<g class=\"panel\"" + attribute("data-top", scale.top) +
+                    attribute("data-bottom", scale.bottom) + attribute("data-low", scale.axis.low) +
+                    attribute("data-high", scale.axis.high) + attribute("data-unit", panel.unit) + ">" +
+                    caption(panel, layout, index);
+  const bool is_empty = panel.series.empty() && panel.strips.empty();
+  const std::string clipped = "<g clip-path=\"url(#" + clip + ")\"><g class=\"zoom\">";
+  out += clipped + backdrop(frame, layout, scale.top, scale.bottom, !panel.strips.empty()) + "</g></g>";
+  if (is_empty) {
+    out += rectangle(kLeft, scale.top, layout.right() - kLeft, scale.bottom - scale.top, "frame");
+    return out +
+           text((kLeft + layout.right()) / 2.0, (scale.top + scale.bottom) / 2.0 + 4.0, "missing",
+                panel.missing) +
+           "</g>";
+  }
+  out += grid(scale, layout) + clipped;
+  for (const Strip& strip : panel.strips) {
+    out +=
+        "<path class=\"strip " + escaped(strip.style) + "\" d=\"" + strip_data(strip, layout, scale) + "\"/>";
+  }
+  for (const Series& series : panel.series) {
+    out += "<path class=\"curve " + escaped(series.style) + "\"" + attribute("data-name", series.name) +
+           " d=\"" + curve_data(series.time, series.value, layout, scale) + "\"/>";
+  }
+  return out + "</g></g></g>";
+}
+
+/// The lane above the panels: names of phases, and a flag for each mark.
+std::string lane(const TimeFrame& frame, const Layout& layout, const std::string& clip) {
+  std::string out = "<g clip-path=\"url(#" + clip + ")\"><g class=\"zoom\">";
+  for (const Stretch& stretch : frame.stretches) {
+    const double from = layout.x(stretch.from), to = layout.x(stretch.to);
+    out += "<g>" +
+           rectangle(from, kNames + 1.0, std::max(0.0, to - from), 15.0, "phase-lane " + stretch.style) +
+           "<title>" + escaped(stretch.name) + "</title></g>";
+  }
+  for (const Mark& mark : frame.marks) {
+    const double x = layout.x(mark.time);
+    out += "<g>" + line(x, 0.0, x, kLane, "mark " + mark.style) + "<title>" + escaped(mark.name) +
+           "</title></g>";
+  }
+  out += "</g></g><g class=\"phase-names\">";
+  for (const Stretch& stretch : frame.stretches) {
+    const double from = layout.x(stretch.from), to = layout.x(stretch.to);
+    const bool fits = to - from > kLetter * static_cast<double>(stretch.name.size()) + 8.0;
+    if (fits) out += text((from + to) / 2.0, kNames + 12.5, "phase-name", stretch.name);
+  }
+  return out + "</g>";
+}
+
+/// The names of the marks that have room, above the lane.
+std::string mark_names(const TimeFrame& frame, const Layout& layout) {
+  std::string out = "<g class=\"mark-names\">";
+  double free_from = kLeft;
+  for (const Mark& mark : frame.marks) {
+    const double x = layout.x(mark.time);
+    const double width = kLetter * static_cast<double>(mark.label.size());
+    if (mark.label.empty() || x < free_from || x + width > layout.stack.width) continue;
+    out += text(x + 3.0, 9.0, "mark-name " + mark.style, mark.label);
+    free_from = x + width + 6.0;
+  }
+  return out + "</g>";
+}
+
+std::string time_axis(const Layout& layout) {
+  const double bottom = layout.bottom(layout.stack.panels.size() - 1);
+  std::string out = "<g class=\"time-axis\">";
+  for (const double tick : layout.time.ticks) {
+    const double x = layout.x(tick);
+    for (std::size_t i = 0; i < layout.stack.panels.size(); ++i) {
+      out += line(x, layout.top(i), x, layout.bottom(i), "grid");
+    }
+    out += text(x, bottom + 16.0, "number x", layout.time.label(tick));
+  }
+  return out + "</g>" + text((kLeft + layout.right()) / 2.0, bottom + 34.0, "axis-name", "time  s");
+}
+
+std::string clip_path(const std::string& id, const Layout& layout) {
+  return "<clipPath id=\"" + id + "\"><rect x=\"" + coordinate(kLeft) + "\" y=\"0\" width=\"" +
+         coordinate(layout.right() - kLeft) + "\" height=\"" + coordinate(layout.height()) +
+         "\"/></clipPath>";
+}
+
+/// A name that is unique on a page as long as titles are.
+std::string clip_name(const std::string& title) {
+  std::string id = "clip-";
+  for (const char letter : title) {
+    const bool plain = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+                       (letter >= '0' && letter <= '9');
+    id += plain ? letter : '-';
+  }
+  return id;
+}
+
+}  // namespace
+
+std::string draw(const TimeStack& stack, const TimeFrame& frame) {
+  if (stack.panels.empty()) return "";
+  const int ticks = static_cast<int>((stack.width - kLeft - kRight) / 70.0);
+  const Layout layout{stack, tight_axis(frame.range, std::max(2, ticks))};
+  const std::string clip = clip_name(stack.title);
+  std::string out = "<svg class=\"time-stack\" role=\"img\" viewBox=\"0 0 " + coordinate(stack.width) + " " +
+                    coordinate(layout.height()) + "\"" + attribute("aria-label", stack.title) +
+                    attribute("data-left", kLeft) + attribute("data-right", layout.right()) +
+                    attribute("data-from", layout.time.low) + attribute("data-to", layout.time.high) + ">";
+  out += "<title>" + escaped(stack.title) + "</title><defs>" + clip_path(clip, layout) + "</defs>";
+  out += mark_names(frame, layout) + lane(frame, layout, clip) + time_axis(layout);
+  for (std::size_t i = 0; i < stack.panels.size(); ++i)
+    out += draw_panel(stack.panels[i], layout, i, frame, clip);
+  return out + "</svg>";
+}
+
+}  // namespace ironbird::scenarios::plot

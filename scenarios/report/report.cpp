@@ -1,0 +1,74 @@
+#include "scenarios/report/report.hpp"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "scenarios/report/figures.hpp"
+#include "scenarios/report/page_style.hpp"
+#include "scenarios/report/plot/svg.hpp"
+#include "scenarios/report/verdict_html.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+std::string figure(const std::string& title, const std::string& drawing) {
+  return "<figure><figcaption>" + plot::escaped(title) + "</figcaption>" + drawing + "</figure>";
+}
+
+std::string figure(const plot::TimeStack& stack, const plot::TimeFrame& frame) {
+  return figure(stack.title, plot::draw(stack, frame));
+}
+
+std::string figures(const std::vector<ReportRun>& runs) {
+  const plot::TimeFrame frame = time_frame(runs);
+  plot::Plane path = path_from_above(runs);
+  path.width = 480.0;
+  path.height = 598.0;  // as tall as the stack beside it
+  std::string out =
+      "<section id=\"figures\"><h2>Flight</h2><p class=\"hint\">Move over a figure to read all of them at "
+      "one time; "
+      "drag to zoom in time, double click to see everything.</p>";
+  out += "<div class=\"pair\">" + figure(path.title, plot::draw(path)) +
+         figure(position_and_heading(runs), frame) + "</div></section>";
+  out += "<section>" + figure(path_errors(runs), frame) + "</section>";
+  out += "<section><h2>Estimate less truth</h2><div class=\"triple\">" +
+         figure(position_errors(runs), frame) + figure(velocity_errors(runs), frame) +
+         figure(attitude_errors(runs), frame) + "</div></section>";
+  out += "<section><h2>Vehicle</h2>" + figure(attitude_and_speed(runs), frame) +
+         figure(motors_and_battery(runs), frame) + "</section>";
+  return out;
+}
+
+std::string page_title(const std::vector<ReportRun>& runs) {
+  if (runs.size() != 1) return std::to_string(runs.size()) + " runs";
+  const ReportRun& run = runs.front();
+  const std::string word = run.verdict() ? std::string(name_of(run.verdict()->outcome)) + ": " : "";
+  return word + (run.verdict() ? run.verdict()->run.scenario : run.label());
+}
+
+}  // namespace
+
+std::string report_html(const std::vector<ReportRun>& runs) {
+  std::string out =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/><title>" +
+      plot::escaped(page_title(runs)) + "</title><style>" + kPageStyle + "</style></head>\n<body><main>\n";
+  for (const ReportRun& run : runs) out += verdict_section(run) + "\n";
+  for (const ReportRun& run : runs) out += checks_table(run) + "\n";
+  if (!runs.empty()) out += figures(runs) + "\n";
+  out += metrics_table(runs) + "\n";
+  for (const ReportRun& run : runs) out += events_table(run) + "\n";
+  for (const ReportRun& run : runs) out += configuration_section(run) + "\n";
+  out += "<footer>Ironbird. North-east-down; times since the start of the run.</footer>\n</main>\n<script>";
+  return out + kPageScript + "</script></body></html>\n";
+}
+
+void write_report(const std::vector<ReportRun>& runs, const std::filesystem::path& file) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << report_html(runs);
+  stream.close();
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+}  // namespace ironbird::scenarios

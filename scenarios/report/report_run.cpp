@@ -1,0 +1,56 @@
+#include "scenarios/report/report_run.hpp"
+
+#include <algorithm>
+
+#include "scenarios/requirements/verdict_json.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+const std::vector<double> kNothing;
+
+}  // namespace
+
+ReportRun ReportRun::read(std::string label, const std::filesystem::path& log_file,
+                          const std::filesystem::path& verdict_file) {
+  std::optional<Verdict> verdict;
+  if (std::filesystem::exists(verdict_file)) verdict = read_verdict(verdict_file);
+  return ReportRun(std::move(label), Log::read(log_file), std::move(verdict));
+}
+
+const std::vector<double>& ReportRun::time(std::string_view topic) const {
+  const LogTopic* found = log_.topic(topic);
+  return found == nullptr ? kNothing : found->time();
+}
+
+const std::vector<double>& ReportRun::column(std::string_view topic, std::string_view field) const {
+  const LogTopic* found = log_.topic(topic);
+  return found == nullptr || !found->has(field) ? kNothing : found->column(field);
+}
+
+std::string ReportRun::about(std::string_view key) const {
+  const auto record = log_.metadata().find("run");
+  if (record == log_.metadata().end()) return "";
+  const auto entry = record->second.find(std::string(key));
+  return entry == record->second.end() ? "" : entry->second;
+}
+
+std::vector<RunEvent> ReportRun::events() const {
+  if (verdict_) return verdict_->events;
+  std::vector<RunEvent> events;
+  const LogTopic* topic = log_.topic("/bench/event");
+  if (topic == nullptr) return events;
+  try {
+    const std::vector<std::string>& kinds = topic->texts("kind");
+    const std::vector<std::string>& texts = topic->texts("text");
+    for (std::size_t i = 0; i < std::min({topic->time().size(), kinds.size(), texts.size()}); ++i) {
+      events.push_back({topic->time()[i], kinds[i], texts[i]});
+    }
+  } catch (const std::out_of_range&) {
+    events.clear();  // a log of another kind: no events to show
+  }
+  return events;
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,200 @@
+#include "scenarios/report/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "scenarios/report/figures.hpp"
+#include "scenarios/report/flight_data.hpp"
+#include "scenarios/report/junit.hpp"
+#include "scenarios/report/test/synthetic_flight.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+std::filesystem::path folder(const std::string& name) {
+  const testing::TestInfo* test =
+      testing::UnitTest::GetInstance()->current_test_info();  // tests run side by side
+  return std::filesystem::path(testing::TempDir()) / "ironbird_report_test" / test->name() / name;
+}
+
+/// The first mistake in the nesting of tags, or nothing. Knows no empty elements but those closed by "/>".
+std::string nesting_mistake(const std::string& text) {
+  std::vector<std::string> open;
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
+    if (text.compare(at, 2, "<!") == 0 || text.compare(at, 2, "<?") == 0) continue;
+    const std::size_t end = text.find('>', at);
+    if (end == std::string::npos) return "tag without end";
+    const std::string tag = text.substr(at + 1, end - at - 1);
+    const std::size_t name_from = tag[0] == '/' ? 1 : 0;
+    const std::string name = tag.substr(name_from, tag.find_first_of(" />", name_from) - name_from);
+    if (name_from == 1) {
+      if (open.empty() || open.back() != name) return "</" + name + "> closes nothing";
+      open.pop_back();
+    } else if (tag.back() != '/') {
+      open.push_back(name);
+      if (name == "script" || name == "style") at = text.find("</" + name, end) - 1;
+    }
+  }
+  return open.empty() ? "" : "<" + open.back() + "> is not closed";
+}
+
+TEST(NestingTest, FindsMistakes) {
+  EXPECT_EQ(nesting_mistake("<a><b x=\"1\"/></a>"), "");
+  EXPECT_NE(nesting_mistake("<a><b></a>"), "");
+  EXPECT_NE(nesting_mistake("<a>"), "");
+}
+
+class ReportTest : public ::testing::Test {
+ protected:
+  static std::vector<ReportRun> one(bool with_truth = true) {
+    std::vector<ReportRun> runs;
+    runs.push_back(
+        SyntheticFlight().fly(folder(with_truth ? "one" : "blind"), "three_waypoints", with_truth));
+    return runs;
+  }
+};
+
+TEST_F(ReportTest, IsWellFormedAndLoadsNothing) {
+  const std::string page = report_html(one());
+  EXPECT_EQ(nesting_mistake(page), "");
+  for (const char* reference : {"http:", "https:", "src=", "@import", "url(http", "<link"}) {
+    std::string without_namespace = page;
+    const std::string name = "http://www.w3.org/2000/svg";  // a name, not an address that is visited
+    for (std::size_t at; (at = without_namespace.find(name)) != std::string::npos;)
+      without_namespace.erase(at, name.size());
+    EXPECT_EQ(without_namespace.find(reference), std::string::npos) << reference;
+  }
+  EXPECT_EQ(page.find("nan"), std::string::npos) << page.substr(page.find("nan") - 60, 120);
+  write_report(one(), folder("one") / "report.html");
+}
+
+TEST_F(ReportTest, SaysTheVerdictFirst) {
+  const std::string page = report_html(one());
+  const std::size_t stamp = page.find("<div class=\"stamp\">fail</div>");
+  ASSERT_NE(stamp, std::string::npos);
+  EXPECT_LT(stamp, page.find("<svg"));
+  EXPECT_NE(page.find("4 of 5 checks hold, 1 failed."), std::string::npos);
+  EXPECT_NE(page.find("&lt;three&gt; &amp; more"), std::string::npos);
+}
+
+TEST_F(ReportTest, GivesTheSameBytesForTheSameRuns) {
+  EXPECT_EQ(report_html(one()), report_html(one()));
+}
+
+TEST_F(ReportTest, StaysSmall) {
+  constexpr std::size_t kMostBytes = 1'500'000;  // for 60 s at 200 Hz
+  EXPECT_LT(report_html(one()).size(), kMostBytes);
+}
+
+TEST_F(ReportTest, SaysWhatIsMissing) {
+  const std::string page = report_html(one(/*with_truth=*/false));
+  EXPECT_EQ(nesting_mistake(page), "");
+  EXPECT_NE(page.find("not in the log: /truth/state"), std::string::npos);
+}
+
+TEST_F(ReportTest, OpensALogWithoutAnything) {
+  std::filesystem::create_directories(folder("empty"));
+  { Recorder recorder(folder("empty") / "flight.mcap"); }
+  std::vector<ReportRun> runs;
+  runs.push_back(ReportRun::read("empty", folder("empty") / "flight.mcap", folder("empty") / "verdict.json"));
+  const std::string page = report_html(runs);
+  EXPECT_EQ(nesting_mistake(page), "");
+  EXPECT_NE(page.find("not judged"), std::string::npos);
+  EXPECT_NE(page.find("not in the log: /autopilot/estimate /autopilot/trajectory /truth/state"),
+            std::string::npos);
+}
+
+TEST_F(ReportTest, OverlaysSeveralRuns) {
+  std::vector<ReportRun> runs = one();
+  runs.push_back(SyntheticFlight(0.5).fly(folder("two"), "second & other"));
+  const std::string page = report_html(runs);
+  EXPECT_EQ(nesting_mistake(page), "");
+  EXPECT_NE(page.find("data-name=\"three_waypoints truth\""), std::string::npos);
+  EXPECT_NE(page.find("data-name=\"second &amp; other truth\""), std::string::npos);
+  write_report(runs, folder("two") / "report.html");
+}
+
+TEST_F(ReportTest, DrawsNoRunsAtAll) {
+  EXPECT_EQ(nesting_mistake(report_html({})), "");
+}
+
+TEST_F(ReportTest, ThrowsWhenTheFileCannotBeWritten) {
+  EXPECT_THROW(write_report(one(), folder("none") / "no" / "report.html"), std::runtime_error);
+}
+
+TEST(FlightDataTest, ErrorsAreEstimateLessTruth) {
+  constexpr double kRoundOff = 1e-9;
+  const ReportRun run = SyntheticFlight(0.25).fly(folder("errors"), "errors");
+  const Curves position = position_error(run);
+  ASSERT_EQ(position[1].value.size(), 12001u);
+  // East: the offset and a wobble of two centimetres.
+  for (const double error : position[1].value) EXPECT_NEAR(error, 0.25, 0.02 + kRoundOff);
+  const Curves velocity = velocity_error(run), attitude = attitude_error(run);
+  for (const double error : velocity[0].value) EXPECT_NEAR(error, 0.0, 0.012 + kRoundOff);
+  for (const double error : attitude[2].value) EXPECT_NEAR(error, 0.0, 0.004 + kRoundOff);
+}
+
+TEST(FlightDataTest, ResamplesLinearlyAndHoldsTheEnds) {
+  const Curve out = resampled({{0.0, 1.0, 3.0}, {0.0, 2.0, 6.0}}, {-1.0, 0.5, 2.0, 9.0});
+  EXPECT_EQ(out.value, (std::vector<double>{0.0, 1.0, 4.0, 6.0}));
+  EXPECT_TRUE(resampled({}, {1.0}).empty());
+}
+
+TEST(FlightDataTest, ResamplesAnglesTheShortWay) {
+  constexpr double kRoundOff = 1e-12;
+  const Curve out = resampled_angle({{0.0, 1.0}, {3.1, -3.1}}, {0.5});
+  EXPECT_NEAR(std::abs(out.value[0]), 3.141592653589793, kRoundOff);
+}
+
+TEST(FlightDataTest, BreaksCurvesWhereAnglesWrap) {
+  const Curve out = broken_at_wraps({{0.0, 1.0, 2.0}, {179.0, -179.0, -178.0}});
+  ASSERT_EQ(out.value.size(), 4u);
+  EXPECT_TRUE(std::isnan(out.value[1]));
+}
+
+Verdict verdict_with(Outcome outcome) {
+  Verdict verdict;
+  verdict.run.scenario = "a<b";
+  CheckResult check;
+  check.name = "name \"x\"";
+  check.outcome = outcome;
+  check.explanation = "1 < 2";
+  verdict.checks = {check};
+  conclude(verdict, {});
+  return verdict;
+}
+
+TEST(JunitTest, MapsOutcomesToCases) {
+  const std::string xml = junit_xml(
+      {verdict_with(Outcome::kPass), verdict_with(Outcome::kFail), verdict_with(Outcome::kInconclusive)});
+  EXPECT_EQ(nesting_mistake(xml), "");
+  EXPECT_NE(xml.find("<testsuite name=\"a&lt;b\" tests=\"1\" failures=\"0\" errors=\"0\" time=\"0\">"),
+            std::string::npos);
+  EXPECT_NE(xml.find("failures=\"1\" errors=\"0\""), std::string::npos);
+  EXPECT_NE(xml.find("failures=\"0\" errors=\"1\""), std::string::npos);
+  EXPECT_NE(xml.find("<failure message=\"1 &lt; 2\"/>"), std::string::npos);
+  EXPECT_NE(xml.find("<error message=\"1 &lt; 2\"/>"), std::string::npos);
+}
+
+TEST(JunitTest, ShowsAnInvalidRunAsACaseOfItsOwn) {
+  Verdict verdict = verdict_with(Outcome::kPass);
+  conclude(verdict, {"the plant diverged"});
+  const std::string xml = junit_xml({verdict});
+  EXPECT_NE(xml.find("tests=\"2\" failures=\"0\" errors=\"1\""), std::string::npos);
+  EXPECT_NE(xml.find("the plant diverged"), std::string::npos);
+}
+
+TEST(AnnotationsTest, ShowsOnlyWhatDoesNotPass) {
+  EXPECT_EQ(annotations({verdict_with(Outcome::kPass)}, {"s.toml"}), "");
+  EXPECT_EQ(annotations({verdict_with(Outcome::kFail)}, {"s.toml"}),
+            "::error file=s.toml,title=name \"x\"::1 < 2\n");
+}
+
+}  // namespace
+}  // namespace ironbird::scenarios

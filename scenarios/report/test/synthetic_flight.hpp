@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "autopilot/signals.hpp"
+#include "hil_bridge/rosflight/messages.hpp"
+#include "scenarios/record/recorder.hpp"
+#include "scenarios/report/report_run.hpp"
+#include "scenarios/requirements/judge.hpp"
+#include "simulator/types/truth.hpp"
+
+namespace ironbird::scenarios {
+
+/// A flight drawn by formulas, recorded and judged like a real one: take-off, three waypoints, landing.
+class SyntheticFlight {
+ public:
+  /// @param offset_east  what the estimate is wrong by, m
+  explicit SyntheticFlight(double offset_east = 0.05) : offset_east_(offset_east) {}
+
+  /// Flies for 60 s at 200 Hz. @param with_truth  also record the truth
+  ReportRun fly(const std::filesystem::path& folder, const std::string& label, bool with_truth = true);
+
+ private:
+  void set(double t);
+
+  double offset_east_;
+  simulator::Truth truth_;
+  autopilot::Signals signals_;
+  hil_bridge::rosflight::RosflightOutputRaw outputs_;
+};
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,36 @@
+#include "scenarios/requirements/check.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+#include "scenarios/requirements/assertions.hpp"
+
+namespace ironbird::scenarios {
+
+Check::Check(const CheckConfig& config, const CheckContext& context) : name_(config.name) {
+  if (context.signals == nullptr) throw std::invalid_argument("checks need a table of signals");
+  if (!(context.tick > 0.0)) throw std::invalid_argument("checks need a tick > 0 s");
+  try {
+    kind_ = kind_of(config);
+    window_ = Window(config.after, config.until);
+    assertion_ = make_assertion(kind_, config, context);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("check \"" + name_ + "\": " + error.what());
+  }
+  if (name_.empty()) name_ = kind_ + " " + (config.signal.empty() ? config.metric : config.signal);
+}
+
+CheckResult Check::result(const RunFacts& facts) const {
+  CheckResult result;
+  result.name = name_;
+  result.kind = kind_;
+  if (!window_.opened() && !window_.opening_event().empty()) {
+    result.margin = result.time = std::numeric_limits<double>::quiet_NaN();
+    result.explanation = window_.opening_event() + " never happened";
+    return result;
+  }
+  assertion_->judge(facts, result);
+  return result;
+}
+
+}  // namespace ironbird::scenarios

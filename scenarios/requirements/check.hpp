@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "autopilot/types/mission.hpp"
+#include "scenarios/requirements/check_config.hpp"
+#include "scenarios/requirements/metrics.hpp"
+#include "scenarios/requirements/outcome.hpp"
+#include "scenarios/requirements/signal_table.hpp"
+#include "scenarios/requirements/timeline.hpp"
+#include "scenarios/requirements/window.hpp"
+
+namespace ironbird::scenarios {
+
+/// What one check found.
+struct CheckResult {
+  std::string name;
+  std::string kind;
+  Outcome outcome = Outcome::kInconclusive;
+  double margin = 0.0;
+  std::string unit;
+  double time = 0.0;
+  std::string explanation;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("name", self.name, "", "what was required");
+    visit("kind", self.kind, "", "kind of assertion, by its key in the scenario file");
+    visit("outcome", self.outcome, "1", "pass, fail or inconclusive");
+    visit("margin", self.margin, "", "distance to failing, in `unit`; negative: failed; NaN: none");
+    visit("unit", self.unit, "", "unit of the margin");
+    visit("time", self.time, "s", "when the margin was least; NaN: no single time");
+    visit("explanation", self.explanation, "", "one line");
+  }
+};
+
+/// What all checks of a run share.
+struct CheckContext {
+  const SignalTable* signals = nullptr;     ///< outlives the checks
+  const autopilot::Route* route = nullptr;  ///< for tubes; may be null
+  double tick = 0.0025;                     ///< time between two observations, s, > 0
+};
+
+/// What the judge knows at the end of a run.
+struct RunFacts {
+  const Timeline& timeline;
+  const std::vector<Metric>& metrics;
+};
+
+/// The work of one kind of check: sees samples inside the window, then says what it found.
+class Assertion {
+ public:
+  virtual ~Assertion() = default;
+
+  /// One tick inside the window. @param time  s
+  virtual void sample(double time) = 0;
+
+  /// Fills outcome, margin, unit, time and explanation.
+  virtual void judge(const RunFacts& facts, CheckResult& result) const = 0;
+};
+
+/// One requirement, judged while the run goes on.
+class Check {
+ public:
+  /// @throws std::invalid_argument naming the check and what does not fit: no kind or two, an unknown signal,
+  /// a bound in the wrong unit
+  Check(const CheckConfig& config, const CheckContext& context);
+
+  /// To be called after every tick, in order of time.
+  void observe(double time, const Timeline& timeline) {
+    if (window_.contains(time, timeline)) assertion_->sample(time);
+  }
+
+  CheckResult result(const RunFacts& facts) const;
+
+ private:
+  std::string name_;
+  std::string kind_;
+  Window window_;
+  std::unique_ptr<Assertion> assertion_;
+};
+
+}  // namespace ironbird::scenarios

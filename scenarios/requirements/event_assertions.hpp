@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenarios/requirements/check.hpp"
+#include "scenarios/requirements/condition.hpp"
+#include "scenarios/requirements/stl.hpp"
+
+namespace ironbird::scenarios {
+
+// The assertions about conditions, events and metrics.
+
+/// happens and never_happens.
+class ConditionAssertion final : public Assertion {
+ public:
+  ConditionAssertion(Condition condition, bool must_happen)
+      : condition_(std::move(condition)), must_happen_(must_happen) {}
+  void sample(double time) override;
+  void judge(const RunFacts& facts, CheckResult& result) const override;
+
+ private:
+  Condition condition_;
+  bool must_happen_;
+  stl::Eventually eventually_;
+  std::optional<double> first_;
+  std::optional<double> broken_at_;
+};
+
+/// order_of_events: each event once more after the one before. The margin is the least time between two.
+class OrderOfEvents final : public Assertion {
+ public:
+  explicit OrderOfEvents(std::vector<std::string> names) : names_(std::move(names)) {}
+  void sample(double time) override {
+    if (!from_) from_ = time;
+  }
+  void judge(const RunFacts& facts, CheckResult& result) const override;
+
+ private:
+  std::vector<std::string> names_;
+  std::optional<double> from_;
+};
+
+/// metric_below and metric_above.
+class MetricBound final : public Assertion {
+ public:
+  /// @param bound  as in the scenario file, read in the metric's unit at the end
+  MetricBound(std::string metric, double bound, bool below)
+      : metric_(std::move(metric)), bound_(bound), below_(below) {}
+  void sample(double) override {}
+  void judge(const RunFacts& facts, CheckResult& result) const override;
+
+ private:
+  std::string metric_;
+  double bound_;
+  bool below_;
+};
+
+}  // namespace ironbird::scenarios

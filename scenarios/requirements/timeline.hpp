@@ -1,0 +1,79 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "autopilot/signals.hpp"
+
+namespace ironbird::scenarios {
+
+/// Something that happened in a run.
+struct RunEvent {
+  double time = 0.0;
+  std::string kind;
+  std::string text;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("time", self.time, "s", "since the start of the run");
+    visit("kind", self.kind, "", "class of event: phase, arming, waypoint, health, fault, …");
+    visit("text", self.text, "", "what happened");
+  }
+};
+
+/// The events of a run in order of time. An event is called by its text (`offboard`), by its kind (`fault`),
+/// or, where the text is not enough, by both (`fault_end:gnss_dropout`).
+class Timeline {
+ public:
+  void add(double time, std::string kind, std::string text) {
+    events_.push_back({time, std::move(kind), std::move(text)});
+  }
+
+  const std::vector<RunEvent>& events() const { return events_; }
+
+  /// Time of the first event of this name not before `from`, s; nothing when there is none.
+  std::optional<double> first(std::string_view name,
+                              double from = -std::numeric_limits<double>::infinity()) const;
+
+ private:
+  std::vector<RunEvent> events_;
+};
+
+/// Turns changes of the autopilot's signals into events: phases of flight (`offboard`), arming (`armed`,
+/// `unarmed`), waypoints (`waypoint_1` for the first one reached, `route_finished`), health of the estimate
+/// (`degraded`).
+class EventDetector {
+ public:
+  /// @param signals  must outlive the detector
+  explicit EventDetector(const autopilot::Signals& signals) : signals_(signals) {}
+
+  /// Adds what has changed since the previous call. To be called after every tick.
+  void observe(double time, Timeline& timeline) {
+    if (changed()) report(time, timeline);
+  }
+
+ private:
+  struct Seen {
+    autopilot::FlightPhase phase = autopilot::FlightPhase::kDisarmed;
+    bool armed = false;
+    autopilot::Health health = autopilot::Health::kUninitialised;
+    std::uint32_t reached = 0;
+    bool finished = false;
+    bool operator==(const Seen&) const = default;
+  };
+
+  Seen now() const {
+    return {signals_.flight.phase, signals_.flight.fcu.armed, signals_.estimate.health,
+            signals_.trajectory.reached, signals_.trajectory.finished};
+  }
+  bool changed() const { return !(now() == seen_); }
+  void report(double time, Timeline& timeline);
+
+  const autopilot::Signals& signals_;
+  Seen seen_;
+};
+
+}  // namespace ironbird::scenarios

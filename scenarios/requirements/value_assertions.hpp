@@ -1,0 +1,203 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "scenarios/requirements/check.hpp"
+#include "scenarios/requirements/condition.hpp"
+#include "scenarios/requirements/stl.hpp"
+#include "scenarios/requirements/subject.hpp"
+
+namespace ironbird::scenarios {
+
+// The assertions about values. Each turns a sample into a margin and leaves the logic to `stl`.
+
+/// The words of a check about one subject.
+struct Wording {
+  std::string bound;  ///< for example "below 1 m"
+  std::string what;   ///< the subject's name
+  std::string unit;   ///< of the margin
+};
+
+/// Fills a result from a margin: pass when it is not negative.
+void fill(CheckResult& result, const stl::Robustness& found, const std::string& unit);
+
+/// Fills a result for a check that saw no sample.
+void fill_unseen(CheckResult& result, const std::string& what);
+
+/// A margin of one sample: how far the value is inside what is allowed, and the value itself.
+struct Measured {
+  double margin;
+  double value;
+};
+
+/// An assertion about a quantity: samples where it is absent are skipped, a value that is not a number fails.
+class ValueAssertion : public Assertion {
+ public:
+  ValueAssertion(Subject subject, Wording wording)
+      : subject_(std::move(subject)), wording_(std::move(wording)) {}
+  void sample(double time) final;
+  void judge(const RunFacts& facts, CheckResult& result) const final;
+
+ protected:
+  virtual void take(double time) = 0;
+  virtual void conclude(CheckResult& result) const = 0;
+
+  const Subject& subject() const { return subject_; }
+  const Wording& wording() const { return wording_; }
+
+ private:
+  Subject subject_;
+  Wording wording_;
+  bool seen_ = false;
+  std::optional<double> broken_at_;
+};
+
+/// rms_below.
+class RmsBelow final : public ValueAssertion {
+ public:
+  RmsBelow(Subject subject, Wording wording, double bound)
+      : ValueAssertion(std::move(subject), std::move(wording)), bound_(bound) {}
+
+ protected:
+  void take(double time) override;
+  void conclude(CheckResult& result) const override;
+
+ private:
+  double bound_;
+  MeanSquare mean_square_;
+  stl::Eventually largest_;
+};
+
+/// stays_below, stays_above, stays_within, stays_within_tube: always inside, or never outside for too long.
+class Stays : public ValueAssertion {
+ public:
+  /// @param tolerated_for  s; a shorter violation does not count
+  Stays(Subject subject, Wording wording, std::optional<double> tolerated_for, double tick);
+
+ protected:
+  /// The margin of the sample seen now.
+  virtual Measured measure() const = 0;
+
+  void take(double time) final;
+  void conclude(CheckResult& result) const final;
+
+ private:
+  std::optional<stl::Recently> recently_;
+  stl::Always always_;
+  stl::Robustness latest_;
+  double worst_value_ = 0.0;
+  double worst_margin_ = std::numeric_limits<double>::infinity();
+};
+
+/// Between two bounds, either of which may be infinite.
+class StaysBetween final : public Stays {
+ public:
+  StaysBetween(Subject subject, Wording wording, std::optional<double> tolerated_for, double tick, double low,
+               double high)
+      : Stays(std::move(subject), std::move(wording), tolerated_for, tick), low_(low), high_(high) {}
+
+ protected:
+  Measured measure() const override;
+
+ private:
+  double low_;
+  double high_;
+};
+
+/// Near the polyline of the waypoints.
+class StaysInTube final : public Stays {
+ public:
+  StaysInTube(Subject subject, Wording wording, std::optional<double> tolerated_for, double tick,
+              double radius, const autopilot::Route& route)
+      : Stays(std::move(subject), std::move(wording), tolerated_for, tick), radius_(radius), route_(route) {}
+
+ protected:
+  Measured measure() const override;
+
+ private:
+  double radius_;
+  const autopilot::Route& route_;
+};
+
+/// final_below.
+class FinalBelow final : public ValueAssertion {
+ public:
+  FinalBelow(Subject subject, Wording wording, double bound, Eigen::Vector3d target)
+      : ValueAssertion(std::move(subject), std::move(wording)), bound_(bound), target_(std::move(target)) {}
+
+ protected:
+  void take(double time) override { last_ = {std::abs(subject().offset_from(target_)), time}; }
+  void conclude(CheckResult& result) const override;
+
+ private:
+  double bound_;
+  Eigen::Vector3d target_;
+  stl::Robustness last_;
+};
+
+/// settles: always within the band from `time` after the window's opening on.
+class Settles final : public ValueAssertion {
+ public:
+  Settles(Subject subject, Wording wording, double band, double time, Eigen::Vector3d target)
+      : ValueAssertion(std::move(subject), std::move(wording)),
+        band_(band),
+        target_(std::move(target)),
+        always_({.from = time}) {}
+
+ protected:
+  void take(double time) override;
+  void conclude(CheckResult& result) const override;
+
+ private:
+  double band_;
+  Eigen::Vector3d target_;
+  stl::Always always_;
+  std::optional<double> start_;
+  double settled_at_ = 0.0;
+  bool outside_ = false;
+};
+
+/// overshoot_below: how far a number goes past its target, seen from where it started.
+class OvershootBelow final : public ValueAssertion {
+ public:
+  OvershootBelow(Subject subject, Wording wording, double bound, Eigen::Vector3d target)
+      : ValueAssertion(std::move(subject), std::move(wording)), bound_(bound), target_(std::move(target)) {}
+
+ protected:
+  void take(double time) override;
+  void conclude(CheckResult& result) const override;
+
+ private:
+  double bound_;
+  Eigen::Vector3d target_;
+  std::optional<double> direction_;
+  stl::Always always_;
+};
+
+/// reaches: once within the tolerance of the target.
+class Reaches final : public ValueAssertion {
+ public:
+  /// @param by  time of the run, s; infinity: any
+  Reaches(Subject subject, Wording wording, double tolerance, double by, Eigen::Vector3d target)
+      : ValueAssertion(std::move(subject), std::move(wording)),
+        tolerance_(tolerance),
+        by_(by),
+        target_(std::move(target)) {}
+
+ protected:
+  void take(double time) override;
+  void conclude(CheckResult& result) const override;
+
+ private:
+  double tolerance_;
+  double by_;
+  Eigen::Vector3d target_;
+  stl::Eventually eventually_;
+  std::optional<double> first_inside_;
+};
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,44 @@
+#include "scenarios/requirements/verdict.hpp"
+
+#include <algorithm>
+
+namespace ironbird::scenarios {
+
+void conclude(Verdict& verdict, const std::vector<std::string>& broken_promises) {
+  verdict.reasons = broken_promises;
+  if (!broken_promises.empty()) {
+    verdict.outcome = Outcome::kInvalid;
+    return;
+  }
+  if (verdict.checks.empty()) {
+    verdict.outcome = Outcome::kInconclusive;
+    verdict.reasons.push_back("the scenario has no checks");
+    return;
+  }
+  verdict.outcome = Outcome::kPass;
+  for (const CheckResult& check : verdict.checks) {
+    if (check.outcome == Outcome::kPass) continue;
+    verdict.reasons.push_back(check.name + ": " + check.explanation);
+    if (verdict.outcome != Outcome::kFail) verdict.outcome = check.outcome;
+  }
+}
+
+int exit_code(Outcome outcome) {
+  constexpr int kAllHold = 0;
+  constexpr int kCheckFailed = 1;
+  constexpr int kNothingShown = 5;
+  if (outcome == Outcome::kPass) return kAllHold;
+  return outcome == Outcome::kFail ? kCheckFailed : kNothingShown;
+}
+
+int exit_code(const std::vector<Verdict>& verdicts) {
+  const auto any = [&](Outcome outcome) {
+    return std::any_of(verdicts.begin(), verdicts.end(),
+                       [=](const Verdict& v) { return v.outcome == outcome; });
+  };
+  if (any(Outcome::kFail)) return exit_code(Outcome::kFail);
+  if (any(Outcome::kInvalid) || any(Outcome::kInconclusive)) return exit_code(Outcome::kInconclusive);
+  return exit_code(Outcome::kPass);
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,123 @@
+#include "scenarios/requirements/verdict_json.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+namespace ironbird::scenarios {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+double number_at(const Json& object, const char* key) {
+  const Json& value = object.at(key);
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+Outcome outcome_from(const std::string& text) {
+  for (const auto& [value, name] : enumerators(Outcome{})) {
+    if (name == text) return value;
+  }
+  throw std::invalid_argument("\"" + text + "\" is no verdict");
+}
+
+Json check_to_json(const CheckResult& check) {
+  return {{"name", check.name},
+          {"kind", check.kind},
+          {"verdict", name_of(check.outcome)},
+          {"margin", number(check.margin)},
+          {"unit", check.unit},
+          {"time", number(check.time)},
+          {"explanation", check.explanation}};
+}
+
+CheckResult check_from_json(const Json& json) {
+  return {.name = json.at("name"),
+          .kind = json.at("kind"),
+          .outcome = outcome_from(json.at("verdict")),
+          .margin = number_at(json, "margin"),
+          .unit = json.at("unit"),
+          .time = number_at(json, "time"),
+          .explanation = json.at("explanation")};
+}
+
+/// Unit and meaning of a metric; empty for one that this version does not know.
+Metric known_metric(const std::string& name) {
+  for (Metric& metric : RunMetrics::names_and_units()) {
+    if (metric.name == name) return metric;
+  }
+  return {name, 0.0, "", ""};
+}
+
+}  // namespace
+
+std::string to_json(const Verdict& verdict) {
+  Json checks = Json::array();
+  for (const CheckResult& check : verdict.checks) checks.push_back(check_to_json(check));
+  Json metrics = Json::object();
+  for (const Metric& metric : verdict.metrics) metrics[metric.name] = number(metric.value);
+  Json events = Json::array();
+  for (const RunEvent& event : verdict.events) {
+    events.push_back({{"time", number(event.time)}, {"kind", event.kind}, {"text", event.text}});
+  }
+  const Json json{{"scenario", verdict.run.scenario},
+                  {"title", verdict.run.title},
+                  {"seed", verdict.run.seed},
+                  {"digest", verdict.run.digest},
+                  {"verdict", name_of(verdict.outcome)},
+                  {"reasons", verdict.reasons},
+                  {"checks", std::move(checks)},
+                  {"metrics", std::move(metrics)},
+                  {"events", std::move(events)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Verdict verdict_from_json(const std::string& text) {
+  Verdict verdict;
+  try {
+    const Json json = Json::parse(text);
+    verdict.run = {json.at("scenario"), json.at("title"), json.at("seed"), json.at("digest")};
+    verdict.outcome = outcome_from(json.at("verdict"));
+    verdict.reasons = json.at("reasons").get<std::vector<std::string>>();
+    for (const Json& check : json.at("checks")) verdict.checks.push_back(check_from_json(check));
+    for (const auto& [name, value] : json.at("metrics").items()) {
+      verdict.metrics.push_back(known_metric(name));
+      verdict.metrics.back().value = number_at(json.at("metrics"), name.c_str());
+    }
+    for (const Json& event : json.at("events")) {
+      verdict.events.push_back({number_at(event, "time"), event.at("kind"), event.at("text")});
+    }
+  } catch (const Json::exception& error) {
+    throw std::invalid_argument(std::string("no verdict: ") + error.what());
+  }
+  return verdict;
+}
+
+void write_verdict(const Verdict& verdict, const std::filesystem::path& file) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << to_json(verdict);
+  stream.close();
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+Verdict read_verdict(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
+  try {
+    return verdict_from_json(text.str());
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace ironbird::scenarios

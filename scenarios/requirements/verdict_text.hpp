@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "scenarios/requirements/verdict.hpp"
+
+namespace ironbird::scenarios {
+
+/// The verdict for a terminal: aligned columns, one line per check, the reasons below. Ends with a line feed.
+/// @param colour  with the colour codes of a terminal
+std::string verdict_table(const Verdict& verdict, bool colour);
+
+/// The verdict for a log of continuous integration: one plain line per check, then one for the run.
+std::string verdict_lines(const Verdict& verdict);
+
+}  // namespace ironbird::scenarios

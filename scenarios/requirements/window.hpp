@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scenarios/requirements/timeline.hpp"
+
+namespace ironbird::scenarios {
+
+/// A time of the run, or a time after an event.
+struct Moment {
+  double offset = 0.0;  ///< s
+  std::string event;    ///< empty: after the start of the run
+
+  /// Reads `10 s`, `offboard` or `gnss_dropout + 5 s`. @throws std::invalid_argument naming `what`
+  static Moment read(const std::string& text, const std::string& what);
+
+  /// When that is, s; nothing while the event has not happened.
+  std::optional<double> when(const Timeline& timeline) const;
+};
+
+/// The part of a run in which a check looks. Both ends belong to it.
+class Window {
+ public:
+  Window() = default;
+  /// @param after, until  as in a scenario file; empty: the start, the end
+  Window(const std::string& after, const std::string& until);
+
+  bool contains(double time, const Timeline& timeline);
+
+  /// When it opened, s; nothing if it did not.
+  const std::optional<double>& opened() const { return from_; }
+
+  /// The event that it waits for to open.
+  const std::string& opening_event() const { return after_.event; }
+
+ private:
+  Moment after_;
+  std::optional<Moment> until_;
+  std::optional<double> from_;
+  std::optional<double> to_;
+  std::size_t events_seen_ = 0;
+  bool resolved_once_ = false;
+};
+
+}  // namespace ironbird::scenarios
