@@ -1,0 +1,171 @@
+#include "hil_bridge/virtual_fcu/attitude_controller.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace ironbird::hil_bridge::virtual_fcu {
+namespace {
+
+constexpr float kDt = 0.0025F;
+constexpr float kRoundOff = 1e-6F;  // of float32 at magnitudes near one
+
+class AttitudeControllerTest : public ::testing::Test {
+ protected:
+  AttitudeControllerTest() {
+    attitude.roll = 0.1F;
+    attitude.pitch = -0.2F;
+    attitude.w_NB_B = {0.3F, -0.4F, 0.5F};
+    for (Channel& channel : command.u) channel.active = true;
+    set_torques(ChannelKind::kAngle, ChannelKind::kAngle, ChannelKind::kRate);
+    rebuild();
+  }
+  void rebuild() { controller.rebuild(parameters, kSeaLevelDensity); }
+  void set_torques(ChannelKind roll, ChannelKind pitch, ChannelKind yaw) {
+    command.u[kRoll].kind = roll;
+    command.u[kPitch].kind = pitch;
+    command.u[kYaw].kind = yaw;
+  }
+  std::array<float, 10> run(bool armed = true, float dt = kDt) {
+    return controller.run(command, attitude, dt, armed);
+  }
+
+  ParameterStore parameters;
+  AttitudeController controller;
+  Attitude attitude;
+  Command command;
+};
+
+TEST_F(AttitudeControllerTest, TurnsAnglesIntoTorquesDampedByTheGyro) {
+  command.u[kRoll].value = 0.25F;
+  command.u[kPitch].value = 0.05F;
+  const std::array<float, 10> u = run();
+  EXPECT_NEAR(u[kRoll], 0.15F * (0.25F - 0.1F) - 0.05F * 0.3F, kRoundOff);
+  EXPECT_NEAR(u[kPitch], 0.15F * (0.05F + 0.2F) + 0.05F * 0.4F, kRoundOff);
+}
+
+TEST_F(AttitudeControllerTest, TurnsRatesIntoTorques) {
+  set_torques(ChannelKind::kRate, ChannelKind::kRate, ChannelKind::kRate);
+  command.u[kRoll].value = 1.0F;
+  command.u[kPitch].value = 2.0F;
+  command.u[kYaw].value = -1.0F;
+  const std::array<float, 10> u = run();
+  EXPECT_NEAR(u[kRoll], 0.07F * (1.0F - 0.3F), kRoundOff);
+  EXPECT_NEAR(u[kPitch], 0.07F * (2.0F + 0.4F), kRoundOff);
+  EXPECT_NEAR(u[kYaw], 0.25F * (-1.0F - 0.5F), kRoundOff);
+}
+
+TEST_F(AttitudeControllerTest, LetsPassThroughValuesPassAndAddsEquilibriumTorques) {
+  parameters.set(parameter("X_EQ_TORQUE"), 0.01F);
+  parameters.set(parameter("Y_EQ_TORQUE"), 0.02F);
+  parameters.set(parameter("Z_EQ_TORQUE"), 0.03F);
+  rebuild();
+  for (Channel& channel : command.u) channel.kind = ChannelKind::kPassThrough;
+  for (std::size_t i = 0; i < 10; ++i) command.u[i].value = 0.1F * static_cast<float>(i);
+  const std::array<float, 10> u = run();
+  for (std::size_t i = 0; i < 10; ++i) {
+    const float added = i == kRoll ? 0.01F : i == kPitch ? 0.02F : i == kYaw ? 0.03F : 0.0F;
+    EXPECT_NEAR(u[i], 0.1F * static_cast<float>(i) + added, kRoundOff) << i;
+  }
+}
+
+TEST_F(AttitudeControllerTest, TreatsAnAngleOnYawAsAValue) {
+  command.u[kYaw] = {.value = 0.4F, .kind = ChannelKind::kAngle, .active = true};
+  EXPECT_FLOAT_EQ(run()[kYaw], 0.4F);
+}
+
+TEST_F(AttitudeControllerTest, ScalesThrottleByTheGreatestThrottleAndTurnsItUp) {
+  command.u[kForceX].value = 0.2F;
+  command.u[kForceZ].value = 0.5F;
+  std::array<float, 10> u = run();
+  EXPECT_NEAR(u[kForceX], 0.2F * 0.7F, kRoundOff);
+  EXPECT_NEAR(u[kForceZ], -0.5F * 0.7F, kRoundOff);
+  parameters.set(parameter("USE_MOTOR_PARAM"), 1);
+  rebuild();
+  u = run();
+  EXPECT_NEAR(u[kForceZ] / controller.maximum_thrust(), -0.35F, kRoundOff);
+}
+
+TEST_F(AttitudeControllerTest, IntegratesOnlyArmedWithThrottleAndShortSteps) {
+  parameters.set(parameter("PID_ROLL_ANG_P"), 0.0F);
+  parameters.set(parameter("PID_ROLL_ANG_D"), 0.0F);
+  parameters.set(parameter("PID_ROLL_ANG_I"), 2.0F);
+  rebuild();
+  command.u[kRoll].value = 1.1F;  // an error of 1 rad
+  command.u[kForceZ].value = 0.1F;
+  EXPECT_EQ(run()[kRoll], 0.0F) << "throttle must be above 0.1";
+  command.u[kForceZ].value = 0.2F;
+  EXPECT_EQ(run(false)[kRoll], 0.0F) << "not armed";
+  EXPECT_EQ(run(true, 0.01F)[kRoll], 0.0F) << "dt must be below 10 ms";
+  EXPECT_NEAR(run()[kRoll], 2.0F * kDt, kRoundOff);
+  EXPECT_NEAR(run()[kRoll], 4.0F * kDt, kRoundOff);
+  EXPECT_EQ(run(false)[kRoll], 0.0F) << "the term drops out";
+  EXPECT_NEAR(run()[kRoll], 6.0F * kDt, kRoundOff) << "and jumps back in";
+}
+
+TEST_F(AttitudeControllerTest, KeepsIntegralsWhenGainsChange) {
+  parameters.set(parameter("PID_ROLL_ANG_I"), 1.0F);
+  rebuild();
+  command.u[kRoll].value = 0.1F + 1.0F;
+  command.u[kForceZ].value = 0.5F;
+  run();
+  parameters.set(parameter("PID_ROLL_ANG_P"), 0.0F);
+  parameters.set(parameter("PID_ROLL_ANG_D"), 0.0F);
+  rebuild();
+  EXPECT_NEAR(run()[kRoll], 2.0F * kDt, kRoundOff);
+}
+
+TEST_F(AttitudeControllerTest, DoesNotIntegrateInPassThroughThrustBecauseUpIsNegative) {
+  parameters.set(parameter("PID_ROLL_ANG_P"), 0.0F);
+  parameters.set(parameter("PID_ROLL_ANG_D"), 0.0F);
+  parameters.set(parameter("PID_ROLL_ANG_I"), 2.0F);
+  rebuild();
+  command.u[kForceZ] = {.value = -30.0F, .kind = ChannelKind::kPassThrough, .active = true};
+  command.u[kRoll].value = 1.1F;
+  EXPECT_EQ(run()[kRoll], 0.0F);
+}
+
+TEST_F(AttitudeControllerTest, BandLimitsTheDerivativeOfARate) {
+  parameters.set(parameter("PID_YAW_RATE_P"), 0.0F);
+  parameters.set(parameter("PID_YAW_RATE_D"), 1.0F);
+  rebuild();
+  attitude.w_NB_B.z = 0.0F;
+  run();
+  // A ramp of 4 rad/s^2: the derivative tends to 4 with the time constant PID_TAU (bilinear, tau 0.05 s).
+  const double ratio = (2.0 * 0.05 - 0.0025) / (2.0 * 0.05 + 0.0025);
+  double expected = 0.0;
+  for (int k = 1; k <= 40; ++k) {
+    attitude.w_NB_B.z = 4.0F * kDt * static_cast<float>(k);
+    expected = 4.0 + (expected - 4.0) * ratio;
+    ASSERT_NEAR(run()[kYaw], -expected, 1e-4);
+  }
+  EXPECT_NEAR(expected, 4.0 * (1.0 - std::exp(-0.1 / 0.05)), 0.01);
+}
+
+TEST_F(AttitudeControllerTest, HasNoDerivativeInAStepOfATenthOfAMillisecond) {
+  parameters.set(parameter("PID_YAW_RATE_P"), 0.0F);
+  parameters.set(parameter("PID_YAW_RATE_D"), 1.0F);
+  rebuild();
+  attitude.w_NB_B.z = 3.0F;
+  EXPECT_EQ(run(true, 0.0001F)[kYaw], 0.0F);
+  attitude.w_NB_B.z = 3.0F;
+  EXPECT_EQ(run(true, kDt)[kYaw], 0.0F) << "the short step remembered the rate";
+}
+
+TEST_F(AttitudeControllerTest, HasNoLimit) {
+  set_torques(ChannelKind::kRate, ChannelKind::kRate, ChannelKind::kRate);
+  command.u[kYaw].value = 1e6F;
+  EXPECT_GT(run()[kYaw], 1e5F);
+}
+
+TEST_F(AttitudeControllerTest, FindsTheTorquesOfALevelVehicleForTheTrim) {
+  command.u[kRoll].value = 0.1F;
+  command.u[kYaw].value = 0.2F;
+  const std::array<float, 3> torques = controller.trim(command);
+  EXPECT_NEAR(torques[0], 0.015F, kRoundOff);
+  EXPECT_EQ(torques[1], 0.0F);
+  EXPECT_NEAR(torques[2], 0.05F, kRoundOff);
+}
+
+}  // namespace
+}  // namespace ironbird::hil_bridge::virtual_fcu
