@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "scenarios/record/log.hpp"
+#include "scenarios/record/rewrite.hpp"
 #include "scenarios/record/test/by_hand.hpp"
 #include "scenarios/record/test/samples.hpp"
 
@@ -114,6 +115,44 @@ TEST_F(RecorderTest, WritesEventsWhenTheyHappen) {
   EXPECT_THAT(log.topic("/event")->time(), ElementsAre(0.002, 0.005));
   EXPECT_THAT(log.topic("/event")->column("depth"), ElementsAre(3.0, 4.0));
   EXPECT_EQ(log.metadata().at("run").at("seed"), "7");
+}
+
+TEST_F(RecorderTest, WritesNumbersThatHaveNoStruct) {
+  std::vector<double> values{1.0, 2.0};
+  Recorder recorder(path());
+  recorder.add_numbers("/autopilot/estimator/probe", {{"error", "rad", "of heading"}, {"gain", "1", ""}},
+                       values.data(), milliseconds(2));
+  for (int i = 0; i < 4; ++i, values[1] += 1.0) recorder.observe(milliseconds(i));
+  EXPECT_THROW(recorder.add_numbers("/none", {}, values.data()), std::invalid_argument);
+  recorder.close();
+  const Log log = Log::read(path());
+  const LogTopic& topic = *log.topic("/autopilot/estimator/probe");
+  EXPECT_THAT(topic.column("error"), ElementsAre(1.0, 1.0));
+  EXPECT_THAT(topic.column("gain"), ElementsAre(2.0, 4.0));
+}
+
+TEST_F(RecorderTest, RewritesAJournalAsTheSameLogInChunks) {
+  const auto fly = [&](const std::filesystem::path& file, const McapOptions& options) {
+    Recorder recorder(file, {.file = options, .topics = {}});
+    recorder.add("/live", inner_);
+    recorder.write_once("/event", samples::filled(), milliseconds(0));
+    for (int i = 0; i < 3000; ++i) {
+      inner_.depth = i;
+      recorder.observe(milliseconds(i));
+    }
+    recorder.metadata("run", {{"seed", "7"}});
+    recorder.close();
+  };
+  fly(path("_journal"), {.journal = true});
+  fly(path("_chunks"), {});
+  rewrite_log(path("_journal"), path("_rewritten"), {});
+  const Log rewritten = Log::read(path("_rewritten"));
+  const Log chunks = Log::read(path("_chunks"));
+  EXPECT_EQ(rewritten.topics(), chunks.topics());
+  EXPECT_EQ(rewritten.metadata(), chunks.metadata());
+  EXPECT_EQ(rewritten.topic("/live")->time(), chunks.topic("/live")->time());
+  EXPECT_EQ(rewritten.topic("/live")->column("depth"), chunks.topic("/live")->column("depth"));
+  EXPECT_EQ(std::filesystem::file_size(path("_rewritten")), std::filesystem::file_size(path("_chunks")));
 }
 
 TEST_F(RecorderTest, RefusesATopicTwiceAndASecondType) {
