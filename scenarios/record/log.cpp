@@ -70,7 +70,7 @@ const LogTopic* Log::topic(std::string_view name) const {
     for (const McapMessage& message : reader.messages()) {
       const McapChannel& from = channels.at(message.channel);
       if (from.topic != name || from.schema != channel->second.schema) continue;
-      topic.time_.push_back(static_cast<double>(message.log_time) * 1e-9);
+      topic.time_.push_back(static_cast<double>(message.log_time) / 1e9);
       if (readable) columns.add(message.data);
     }
     if (readable) columns.finish(topic.fields_, topic.columns_, topic.texts_);

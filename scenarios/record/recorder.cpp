@@ -36,6 +36,24 @@ Recorder::Channel Recorder::add_source(std::string_view topic, const Ros2Schema&
   return {sources_.back().recorded ? static_cast<int>(sources_.size()) - 1 : -1};
 }
 
+Recorder::Channel Recorder::add_numbers(std::string_view topic, const std::vector<NumberField>& fields,
+                                        const double* values, Time period) {
+  if (fields.empty()) throw std::invalid_argument("topic " + std::string(topic) + " has no fields");
+  Ros2Schema schema{"ironbird_msgs/msg/" + camel_case(topic), ""};
+  for (const NumberField& field : fields) {
+    schema.text += "float64 " + field.name + "  # [" + field.unit + "] " + field.meaning + "\n";
+  }
+  numbers_.push_back({values, fields.size()});
+  return add_source(topic, schema, &numbers_.back(), &encode_numbers, period);
+}
+
+void Recorder::encode_numbers(const void* numbers, ByteBuffer& out) {
+  const auto* list = static_cast<const Numbers*>(numbers);
+  CdrEncoder encoder(out);
+  for (std::size_t i = 0; i < list->count; ++i) encoder.write(list->values[i]);
+  encoder.finish();
+}
+
 const Recorder::Source* Recorder::find(std::string_view topic) const {
   const auto found = std::find_if(sources_.begin(), sources_.end(),
                                   [&](const Source& source) { return source.topic == topic; });

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -43,6 +44,21 @@ struct RecorderOptions {
   }
 };
 
+/// A number that has no described struct, such as a module's probe: its name (a legal ROS field), unit,
+/// meaning.
+struct NumberField {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("name", self.name, "", "small letters, digits and underscores");
+    visit("unit", self.unit, "", "of the number");
+    visit("meaning", self.meaning, "", "what it is");
+  }
+};
+
 /// Writes described structs that live elsewhere to a log, each with its own period.
 ///
 /// Looks at the structs through const references when observe() is called and never otherwise. Allocates only
@@ -65,6 +81,12 @@ class Recorder {
   Channel add(std::string_view topic, const T& live, Time period = Time{0}) {
     return add_source(topic, ros2_schema<T>(last_word(topic)), &live, &encode<T>, period);
   }
+
+  /// Adds a topic of numbers that lie one behind the other, one for each field.
+  /// @param values  stay where they are until the last observe(); as many as fields
+  /// @throws std::invalid_argument when there is no field or the topic was added before
+  Channel add_numbers(std::string_view topic, const std::vector<NumberField>& fields, const double* values,
+                      Time period = Time{0});
 
   /// Writes every topic that is due at `now`. @param now  never less than before
   /// @throws std::runtime_error once when the file can no longer be written
@@ -107,6 +129,11 @@ class Recorder {
     encode_cdr(*static_cast<const T*>(value), out);
   }
 
+  struct Numbers {
+    const double* values;
+    std::size_t count;
+  };
+  static void encode_numbers(const void* numbers, ByteBuffer& out);
   static std::string_view last_word(std::string_view topic);
   Channel add_source(std::string_view topic, const Ros2Schema& schema, const void* live, Encode encoder,
                      Time period);
@@ -116,6 +143,8 @@ class Recorder {
   McapWriter writer_;
   std::vector<TopicRule> rules_;
   std::vector<Source> sources_;
+  /// What sources of add_numbers() point to; a deque never moves its elements.
+  std::deque<Numbers> numbers_;
 };
 
 }  // namespace ironbird::scenarios

@@ -60,11 +60,11 @@ class TopicColumns::Input {
     return value;
   }
 
-  /// Time as seconds, from the same integer that `seconds()` would use.
+  /// Time as seconds: the double next to the decimal, so that 30 ms are 0.03.
   double time() {
     const auto whole = get<std::int32_t>();
     const auto nanoseconds = get<std::uint32_t>();
-    return static_cast<double>(std::int64_t{whole} * 1000000000 + std::int64_t{nanoseconds}) * 1e-9;
+    return static_cast<double>(std::int64_t{whole} * 1000000000 + std::int64_t{nanoseconds}) / 1e9;
   }
 
  private:

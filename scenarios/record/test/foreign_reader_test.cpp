@@ -28,7 +28,8 @@ autopilot::Signals signals_at(int tick) {
   autopilot::Signals signals;
   signals.sensors.imu.stamp = milliseconds(tick);
   signals.sensors.imu.f_B = {0.5, -0.25, -9.81};
-  if (tick % 4 == 0) signals.sensors.mag = autopilot::MagSample{milliseconds(tick), {0.125, 1.0 * tick, -1.0}};
+  if (tick % 4 == 0)
+    signals.sensors.mag = autopilot::MagSample{milliseconds(tick), {0.125, 1.0 * tick, -1.0}};
   signals.estimate.q_NB = autopilot::Quaternion(0.5, -0.5, 0.5, 0.5);
   signals.estimate.health = autopilot::Health::kDegraded;
   signals.route.waypoints.resize(2);
