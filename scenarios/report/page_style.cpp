@@ -70,7 +70,7 @@ text.number, .axis-name, .unit, .missing { fill: var(--soft); } text.number { fo
 .phase-name, .mark-name { font-size: 11px; fill: var(--soft); } .mark-name.fault { fill: var(--fault); font-weight: 600; }
 .mark { stroke: var(--soft); stroke-width: 1; stroke-dasharray: 2 3; opacity: 0.7; vector-effect: non-scaling-stroke; } .mark.fault { stroke: var(--fault); stroke-width: 1.6; opacity: 1; stroke-dasharray: none; }
 .place circle { fill: var(--paper); stroke: var(--ink); stroke-width: 1.4; } .place-name { font-size: 11px; font-weight: 700; }
-.cursor { stroke: var(--ink); stroke-width: 1; opacity: 0.6; pointer-events: none; } .reading { font-size: 11.5px; font-variant-numeric: tabular-nums; paint-order: stroke; stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round; pointer-events: none; }
+.cursor { stroke: var(--ink); stroke-width: 1; opacity: 0.6; pointer-events: none; } .reading { font-size: 11.5px; font-variant-numeric: tabular-nums; text-anchor: end; pointer-events: none; }
 .brush { fill: var(--c0); fill-opacity: 0.15; pointer-events: none; }
 footer { margin-top: 48px; color: var(--soft); font-size: 13px; }
 @media (max-width: 900px) { .pair, .triple, .verdict { grid-template-columns: 1fr; } main { padding: 14px; } }

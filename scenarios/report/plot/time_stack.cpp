@@ -46,11 +46,9 @@ struct Scale {
 Axis value_axis(const Panel& panel, double panel_height) {
   Range range;
   for (const Series& series : panel.series) range.include(series.value);
+  // A bound that is still wide open must not flatten the curve inside it.
+  const double reach = std::max(4.0 * std::max(std::abs(range.low), std::abs(range.high)), panel.least_span);
   for (const Strip& strip : panel.strips) {
-    // A bound that is still wide open must not flatten the curve inside it.
-    Range inner = range;
-    const double reach =
-        std::max(4.0 * std::max(std::abs(inner.low), std::abs(inner.high)), panel.least_span);
     for (const double high : strip.high) range.include(std::clamp(high, -reach, reach));
     for (const double low : strip.low) range.include(std::clamp(low, -reach, reach));
   }
