@@ -20,7 +20,7 @@ const char* const kPageScript = R"js(
       top: +node.dataset.top, bottom: +node.dataset.bottom, low: +node.dataset.low, high: +node.dataset.high,
       curves: Array.from(node.querySelectorAll('path.curve')).map((path) => ({
         name: path.dataset.name, points: null, path: path })),
-      reading: make('text', { class: 'reading', y: +node.dataset.top + 14 }, svg) }));
+      reading: make('text', { class: 'reading', x: +data.right, y: +node.dataset.top - 7 }, svg) }));
     const first = panels[0], last = panels[panels.length - 1];
     const cursor = make('line', { class: 'cursor', y1: first.top, y2: last.bottom, visibility: 'hidden' }, svg);
     return { svg, panels, cursor, left: +data.left, right: +data.right, from: +data.from, to: +data.to,
@@ -64,10 +64,7 @@ const char* const kPageScript = R"js(
           const value = valueAt(s, panel, curve, t);
           if (value !== null) words.push((curve.name ? curve.name + ' ' : '') + Number(value.toPrecision(3)));
         }
-        const toTheRight = x > (s.left + s.right) / 2;
-        panel.reading.setAttribute('text-anchor', toTheRight ? 'end' : 'start');
-        panel.reading.setAttribute('x', x + (toTheRight ? -6 : 6));
-        panel.reading.textContent = words.join('   ');
+        panel.reading.textContent = words.join('\u2003');
       });
     }
   };

@@ -51,14 +51,15 @@ code { font: 13px/1.4 ui-monospace, "DejaVu Sans Mono", monospace; }
 a.moment { color: inherit; text-decoration: underline dotted; text-underline-offset: 3px; }
 details { margin-top: 18px; } summary { cursor: pointer; font-weight: 600; }
 pre { background: var(--card); border: 1px solid var(--hair); border-radius: 8px; padding: 14px 18px; overflow-x: auto; font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", monospace; }
-.pair { display: grid; grid-template-columns: 480fr 780fr; gap: 12px; align-items: start; } .triple { display: grid; grid-template-columns: repeat(3, 1fr); gap: 10px; }
+.pair, .triple { margin-bottom: 14px; } .pair { display: grid; grid-template-columns: 480fr 780fr; gap: 12px; align-items: start; } .triple { display: grid; grid-template-columns: repeat(3, 1fr); gap: 10px; }
 figure { margin: 0; min-width: 0; } figure > svg { display: block; width: 100%; height: auto; } figcaption { font-weight: 600; margin: 0 0 4px; }
+.legend { display: flex; flex-wrap: wrap; gap: 2px 16px; color: var(--soft); font-size: 13px; margin: 0 0 4px; } .legend span { display: inline-flex; align-items: center; gap: 6px; }
 .hint { color: var(--soft); font-size: 13px; margin: 0 0 8px; }
 svg { font: 12px system-ui, "Segoe UI", Roboto, "Helvetica Neue", "Noto Sans", "DejaVu Sans", sans-serif; fill: var(--ink); }
 .time-stack { touch-action: pan-y; }
 .frame { fill: none; stroke: var(--hair); } .grid { stroke: var(--hair); stroke-width: 0.7; } .zero { stroke: var(--zero); stroke-width: 1; }
 .number.x, .axis-name, .phase-name, .missing, .place-name { text-anchor: middle; } .number.y { text-anchor: end; }
-text.number, .axis-name, .legend, .unit, .missing { fill: var(--soft); } text.number { font-size: 11.5px; font-variant-numeric: tabular-nums; }
+text.number, .axis-name, .unit, .missing { fill: var(--soft); } text.number { font-size: 11.5px; font-variant-numeric: tabular-nums; }
 .panel-title { font-weight: 600; } .unit { font-weight: 400; }
 .curve { fill: none; stroke: var(--ink); stroke-width: 1.6; stroke-linejoin: round; vector-effect: non-scaling-stroke; } .curve.thin { stroke-width: 1.1; }
 .curve.c0 { stroke: var(--c0); } .curve.c1 { stroke: var(--c1); } .curve.c2 { stroke: var(--c2); } .curve.c3 { stroke: var(--c3); } .curve.c4 { stroke: var(--c4); } .curve.c5 { stroke: var(--c5); } .curve.c6 { stroke: var(--c6); } .curve.c7 { stroke: var(--c7); }
@@ -69,11 +70,12 @@ text.number, .axis-name, .legend, .unit, .missing { fill: var(--soft); } text.nu
 .phase-name, .mark-name { font-size: 11px; fill: var(--soft); } .mark-name.fault { fill: var(--fault); font-weight: 600; }
 .mark { stroke: var(--soft); stroke-width: 1; stroke-dasharray: 2 3; opacity: 0.7; vector-effect: non-scaling-stroke; } .mark.fault { stroke: var(--fault); stroke-width: 1.6; opacity: 1; stroke-dasharray: none; }
 .place circle { fill: var(--paper); stroke: var(--ink); stroke-width: 1.4; } .place-name { font-size: 11px; font-weight: 700; }
-.cursor { stroke: var(--ink); stroke-width: 1; opacity: 0.6; pointer-events: none; } .reading { font-size: 11.5px; font-variant-numeric: tabular-nums; paint-order: stroke; stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round; pointer-events: none; }
+.cursor { stroke: var(--ink); stroke-width: 1; opacity: 0.6; pointer-events: none; } .reading { font-size: 11.5px; font-variant-numeric: tabular-nums; text-anchor: end; pointer-events: none; }
 .brush { fill: var(--c0); fill-opacity: 0.15; pointer-events: none; }
 footer { margin-top: 48px; color: var(--soft); font-size: 13px; }
 @media (max-width: 900px) { .pair, .triple, .verdict { grid-template-columns: 1fr; } main { padding: 14px; } }
-@media print { main { max-width: none; padding: 0; } section, figure { break-inside: avoid; } .hint { display: none; } details { display: none; } }
+@media print { main { max-width: none; padding: 0; } section, figure { break-inside: avoid; } .legend { display: flex; flex-wrap: wrap; gap: 2px 16px; color: var(--soft); font-size: 13px; margin: 0 0 4px; } .legend span { display: inline-flex; align-items: center; gap: 6px; }
+.hint { display: none; } details { display: none; } }
 )css";
 
 }  // namespace ironbird::scenarios

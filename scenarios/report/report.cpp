@@ -12,12 +12,12 @@ namespace ironbird::scenarios {
 
 namespace {
 
-std::string figure(const std::string& title, const std::string& drawing) {
-  return "<figure><figcaption>" + plot::escaped(title) + "</figcaption>" + drawing + "</figure>";
+std::string figure(const std::string& title, const std::string& legend, const std::string& drawing) {
+  return "<figure><figcaption>" + plot::escaped(title) + "</figcaption>" + legend + drawing + "</figure>";
 }
 
 std::string figure(const plot::TimeStack& stack, const plot::TimeFrame& frame) {
-  return figure(stack.title, plot::draw(stack, frame));
+  return figure(stack.title, plot::legend(stack), plot::draw(stack, frame));
 }
 
 std::string figures(const std::vector<ReportRun>& runs) {
@@ -29,7 +29,7 @@ std::string figures(const std::vector<ReportRun>& runs) {
       "<section id=\"figures\"><h2>Flight</h2><p class=\"hint\">Move over a figure to read all of them at "
       "one time; "
       "drag to zoom in time, double click to see everything.</p>";
-  out += "<div class=\"pair\">" + figure(path.title, plot::draw(path)) +
+  out += "<div class=\"pair\">" + figure(path.title, plot::legend(path), plot::draw(path)) +
          figure(position_and_heading(runs), frame) + "</div></section>";
   out += "<section>" + figure(path_errors(runs), frame) + "</section>";
   out += "<section><h2>Estimate less truth</h2><div class=\"triple\">" +
@@ -55,10 +55,10 @@ std::string report_html(const std::vector<ReportRun>& runs) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/><title>" +
       plot::escaped(page_title(runs)) + "</title><style>" + kPageStyle + "</style></head>\n<body><main>\n";
   for (const ReportRun& run : runs) out += verdict_section(run) + "\n";
-  for (const ReportRun& run : runs) out += checks_table(run) + "\n";
+  for (const ReportRun& run : runs) out += checks_table(run, runs.size() > 1) + "\n";
   if (!runs.empty()) out += figures(runs) + "\n";
   out += metrics_table(runs) + "\n";
-  for (const ReportRun& run : runs) out += events_table(run) + "\n";
+  for (const ReportRun& run : runs) out += events_table(run, runs.size() > 1) + "\n";
   for (const ReportRun& run : runs) out += configuration_section(run) + "\n";
   out += "<footer>Ironbird. North-east-down; times since the start of the run.</footer>\n</main>\n<script>";
   return out + kPageScript + "</script></body></html>\n";

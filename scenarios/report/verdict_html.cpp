@@ -89,6 +89,10 @@ std::string tiles(const Verdict& verdict) {
   return element("div", "tiles", out);
 }
 
+std::string titled_section(const std::string& title, const ReportRun& run, bool labelled) {
+  return "<section><h2>" + title + (labelled ? " of " + escaped(run.label()) : "") + "</h2>";
+}
+
 std::string heading_of_run(const ReportRun& run) {
   const std::string title =
       run.verdict() && !run.verdict()->run.title.empty() ? run.verdict()->run.title : run.about("title");
@@ -117,7 +121,7 @@ std::string verdict_section(const ReportRun& run) {
   return judged ? out + tiles(*run.verdict()) : out;
 }
 
-std::string checks_table(const ReportRun& run) {
+std::string checks_table(const ReportRun& run, bool labelled) {
   if (!run.verdict() || run.verdict()->checks.empty()) return "";
   std::string rows;
   for (const CheckResult& check : run.verdict()->checks) {
@@ -127,7 +131,8 @@ std::string checks_table(const ReportRun& run) {
             element("td", "number margin " + word, escaped(margin_text(check))) + time_cell(check.time) +
             element("td", "", escaped(check.explanation)) + "</tr>";
   }
-  return "<section><h2>Checks</h2><div "
+  return titled_section("Checks", run, labelled) +
+         "<div "
          "class=\"scroll\"><table><thead><tr><th>verdict</th><th>required</th><th "
          "class=\"number\">margin</th><th class=\"number\">decided "
          "at</th><th>found</th></tr></thead><tbody>" +
@@ -161,14 +166,15 @@ std::string metrics_table(const std::vector<ReportRun>& runs) {
          "<th>unit</th><th>meaning</th></tr></thead><tbody>" + rows + "</tbody></table></div></section>";
 }
 
-std::string events_table(const ReportRun& run) {
+std::string events_table(const ReportRun& run, bool labelled) {
   std::string rows;
   for (const RunEvent& event : run.events()) {
     rows += "<tr>" + time_cell(event.time) + element("td", "", escaped(event.kind)) +
             element("td", "", escaped(event.text)) + "</tr>";
   }
   if (rows.empty()) return "";
-  return "<section><h2>Events</h2><div class=\"scroll\"><table class=\"narrow\"><thead><tr><th "
+  return titled_section("Events", run, labelled) +
+         "<div class=\"scroll\"><table class=\"narrow\"><thead><tr><th "
          "class=\"number\">at</th><th>kind</th><th>what</th></tr></thead><tbody>" +
          rows + "</tbody></table></div></section>";
 }

@@ -50,9 +50,10 @@ struct BandConfig {
 /// is `signal`, or the difference of the two signals in `error`, or, for the kinds that say so, something
 /// else.
 ///
-/// A quantity is a number in SI (`1.5`) or a text with a unit (`"25 deg"`). A vector is judged by its norm,
-/// or by its distance from `to_point`. A moment is a time (`"10 s"`), an event (`"offboard"`) or a time after
-/// an event (`"gnss_dropout + 5 s"`); of several events of the same name the first one counts.
+/// A quantity is a text with a unit (`"25 deg"`), or with a number in the unit of what is judged (`"1.5"`). A
+/// vector is judged by its norm, or by its distance from `to_point`. A moment is a time (`"10 s"`), an event
+/// (`"offboard"`) or a time after an event (`"gnss_dropout + 5 s"`); of several events of the same name the
+/// first one counts.
 struct CheckConfig {
   std::string name;
   std::string signal;

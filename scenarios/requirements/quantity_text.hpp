@@ -5,8 +5,8 @@
 
 namespace ironbird::scenarios {
 
-/// The number that a text such as `25 deg`, `1.5` or `300 ms` stands for, in SI.
-/// @param unit  the SI unit wanted; a bare number is taken to be in it
+/// The number that a text such as `25 deg`, `1.5` or `300 ms` stands for, in `unit`.
+/// @param unit  the unit wanted; a bare number is taken to be in it
 /// @param what  what is being read, for the message
 /// @throws std::invalid_argument naming `what`, the text and the unit when it is no number or has another
 /// unit

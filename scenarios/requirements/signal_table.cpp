@@ -4,27 +4,12 @@
 #include <limits>
 #include <stdexcept>
 
+#include "scenarios/config/nearest_name.hpp"
 #include "scenarios/requirements/attitude.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
-
-/// Number of single-letter edits between two texts.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row[b.size()];
-}
 
 bool ends_with_name(std::string_view path, std::string_view name) {
   return path == name ||

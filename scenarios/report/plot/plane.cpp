@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLeft = 58.0;      // px: numbers and name of the y axis
 constexpr double kRight = 16.0;     // px
-constexpr double kTop = 30.0;       // px: legend
+constexpr double kTop = 10.0;       // px
 constexpr double kBottom = 46.0;    // px: numbers and name of the x axis
 constexpr double kNearer = 0.35;    // px: points closer than this to the one before are not drawn
 constexpr double kLeastSpan = 1.0;  // in the plane's unit
@@ -100,18 +100,13 @@ std::string track_data(const Track& track, const Frame& frame) {
   return path_data(pixels);
 }
 
-std::string legend(const Plane& plane, const Frame& frame) {
-  std::string out;
-  double x = frame.left;
-  for (const Track& track : plane.tracks) {
-    if (track.name.empty()) continue;
-    out += line(x, 14.0, x + 18.0, 14.0, "curve " + track.style) + text(x + 24.0, 18.0, "legend", track.name);
-    x += 24.0 + 6.6 * static_cast<double>(track.name.size()) + 18.0;
-  }
-  return out;
-}
-
 }  // namespace
+
+std::string legend(const Plane& plane) {
+  std::vector<LegendEntry> entries;
+  for (const Track& track : plane.tracks) entries.push_back({track.name, track.style, false});
+  return legend(entries);
+}
 
 std::string draw(const Plane& plane) {
   std::string out = "<svg class=\"plane\" role=\"img\" viewBox=\"0 0 " + coordinate(plane.width) + " " +
@@ -122,7 +117,6 @@ std::string draw(const Plane& plane) {
   if (plane.tracks.empty()) {
     return out + text(plane.width / 2.0, plane.height / 2.0, "missing", plane.missing) + "</svg>";
   }
-  out += legend(plane, frame);
   for (const Track& track : plane.tracks) {
     out += "<path class=\"curve " + escaped(track.style) + "\" d=\"" + track_data(track, frame) + "\"/>";
   }

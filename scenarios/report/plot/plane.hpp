@@ -36,4 +36,7 @@ struct Plane {
 /// The drawing as an SVG element with an accessible title.
 std::string draw(const Plane& plane);
 
+/// What its tracks mean, as an HTML element.
+std::string legend(const Plane& plane);
+
 }  // namespace ironbird::scenarios::plot

@@ -1,5 +1,6 @@
 #include "scenarios/report/plot/svg.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -77,6 +78,20 @@ std::string text(double x, double y, std::string_view css_class, std::string_vie
 std::string rectangle(double x, double y, double width, double height, std::string_view css_class) {
   return "<rect" + attribute("class", css_class) + " x=\"" + coordinate(x) + "\" y=\"" + coordinate(y) +
          "\" width=\"" + coordinate(width) + "\" height=\"" + coordinate(height) + "\"/>";
+}
+
+std::string legend(const std::vector<LegendEntry>& entries) {
+  std::string out = "<div class=\"legend\">";
+  std::vector<LegendEntry> said;
+  for (const LegendEntry& entry : entries) {
+    if (entry.name.empty() || std::find(said.begin(), said.end(), entry) != said.end()) continue;
+    said.push_back(entry);
+    out += "<span><svg width=\"22\" height=\"10\" aria-hidden=\"true\">" +
+           (entry.is_strip ? rectangle(0.0, 0.0, 22.0, 10.0, "strip " + entry.style)
+                           : line(0.0, 5.0, 22.0, 5.0, "curve " + entry.style)) +
+           "</svg>" + escaped(entry.name) + "</span>";
+  }
+  return out + "</div>";
 }
 
 }  // namespace ironbird::scenarios::plot

@@ -23,6 +23,17 @@ std::string path_data(const std::vector<Point>& points);
 
 std::string line(double x1, double y1, double x2, double y2, std::string_view css_class);
 std::string text(double x, double y, std::string_view css_class, std::string_view content);
+/// One line of a legend.
+struct LegendEntry {
+  std::string name;
+  std::string style;  ///< CSS classes of the curve or strip
+  bool is_strip = false;
+  bool operator==(const LegendEntry&) const = default;
+};
+
+/// A legend as an HTML element that wraps; entries without a name are left out, equal ones are said once.
+std::string legend(const std::vector<LegendEntry>& entries);
+
 std::string rectangle(double x, double y, double width, double height, std::string_view css_class);
 
 }  // namespace ironbird::scenarios::plot

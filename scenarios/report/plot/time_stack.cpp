@@ -46,11 +46,9 @@ struct Scale {
 Axis value_axis(const Panel& panel, double panel_height) {
   Range range;
   for (const Series& series : panel.series) range.include(series.value);
+  // A bound that is still wide open must not flatten the curve inside it.
+  const double reach = std::max(4.0 * std::max(std::abs(range.low), std::abs(range.high)), panel.least_span);
   for (const Strip& strip : panel.strips) {
-    // A bound that is still wide open must not flatten the curve inside it.
-    Range inner = range;
-    const double reach =
-        std::max(4.0 * std::max(std::abs(inner.low), std::abs(inner.high)), panel.least_span);
     for (const double high : strip.high) range.include(std::clamp(high, -reach, reach));
     for (const double low : strip.low) range.include(std::clamp(low, -reach, reach));
   }
@@ -99,27 +97,12 @@ std::string strip_data(const Strip& strip, const Layout& layout, const Scale& sc
   return path_data(edge) + "Z";
 }
 
-/// Title, unit and legend of a panel.
+/// Title and unit of a panel.
 std::string caption(const Panel& panel, const Layout& layout, std::size_t index) {
-  const double y = layout.top(index) - 7.0;
-  std::string out = "<text class=\"panel-title\" x=\"" + coordinate(kLeft) + "\" y=\"" + coordinate(y) +
-                    "\">" + escaped(panel.title);
+  std::string out = "<text class=\"panel-title\" x=\"" + coordinate(kLeft) + "\" y=\"" +
+                    coordinate(layout.top(index) - 7.0) + "\">" + escaped(panel.title);
   if (!panel.unit.empty()) out += "<tspan class=\"unit\">  " + escaped(panel.unit) + "</tspan>";
-  out += "</text>";
-  double x = layout.right();
-  std::vector<std::pair<std::string, std::string>> entries;
-  for (const Series& series : panel.series) entries.emplace_back(series.name, "curve " + series.style);
-  for (const Strip& strip : panel.strips) entries.emplace_back(strip.name, "strip " + strip.style);
-  std::reverse(entries.begin(), entries.end());
-  for (const auto& [name, style] : entries) {
-    if (name.empty()) continue;
-    x -= kLetter * static_cast<double>(name.size());
-    out += text(x, y, "legend", name);
-    out += style.starts_with("strip") ? rectangle(x - 22.0, y - 9.0, 16.0, 10.0, style)
-                                      : line(x - 22.0, y - 4.0, x - 6.0, y - 4.0, style);
-    x -= 30.0;
-  }
-  return out;
+  return out + "</text>";
 }
 
 std::string grid(const Scale& scale, const Layout& layout) {
@@ -198,16 +181,23 @@ std::string lane(const TimeFrame& frame, const Layout& layout, const std::string
   return out + "</g>";
 }
 
-/// The names of the marks that have room, above the lane.
+/// The names of the marks that have room, above the lane: first of those with a style of their own, for
+/// example faults.
 std::string mark_names(const TimeFrame& frame, const Layout& layout) {
   std::string out = "<g class=\"mark-names\">";
-  double free_from = kLeft;
-  for (const Mark& mark : frame.marks) {
-    const double x = layout.x(mark.time);
-    const double width = kLetter * static_cast<double>(mark.label.size());
-    if (mark.label.empty() || x < free_from || x + width > layout.stack.width) continue;
-    out += text(x + 3.0, 9.0, "mark-name " + mark.style, mark.label);
-    free_from = x + width + 6.0;
+  std::vector<std::pair<double, double>> taken;
+  for (const bool styled : {true, false}) {
+    for (const Mark& mark : frame.marks) {
+      const double from = layout.x(mark.time);
+      const double to = from + kLetter * static_cast<double>(mark.label.size()) + 4.0;
+      const bool collides = std::any_of(taken.begin(), taken.end(), [=](const auto& span) {
+        return from < span.second && span.first < to;
+      });
+      const bool fits = from >= kLeft && to <= layout.stack.width && !collides;
+      if (mark.style.empty() == styled || mark.label.empty() || !fits) continue;
+      out += text(from + 3.0, 9.0, "mark-name " + mark.style, mark.label);
+      taken.emplace_back(from, to);
+    }
   }
   return out + "</g>";
 }
@@ -243,6 +233,15 @@ std::string clip_name(const std::string& title) {
 }
 
 }  // namespace
+
+std::string legend(const TimeStack& stack) {
+  std::vector<LegendEntry> entries;
+  for (const Panel& panel : stack.panels) {
+    for (const Series& series : panel.series) entries.push_back({series.name, series.style, false});
+    for (const Strip& strip : panel.strips) entries.push_back({strip.name, strip.style, true});
+  }
+  return legend(entries);
+}
 
 std::string draw(const TimeStack& stack, const TimeFrame& frame) {
   if (stack.panels.empty()) return "";

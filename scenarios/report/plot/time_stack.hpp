@@ -69,4 +69,7 @@ struct TimeStack {
 /// the ranges in its data attributes and adds the cursor and the zoom.
 std::string draw(const TimeStack& stack, const TimeFrame& frame);
 
+/// What its curves and strips mean, as an HTML element.
+std::string legend(const TimeStack& stack);
+
 }  // namespace ironbird::scenarios::plot

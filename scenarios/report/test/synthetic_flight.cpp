@@ -107,28 +107,31 @@ void SyntheticFlight::set(double t) {
   truth_.battery_voltage = 16.6 - 0.01 * t - airborne * 0.6;
   truth_.battery_current = airborne * (18.0 + wobble(t, 1.0));
 
-  autopilot::StateEstimate& estimate = signals_.estimate;
-  estimate.health = autopilot::Health::kGood;
-  estimate.p_NB_N = truth_.p_NB_N + Vector3d(0.03 * wobble(t, 0.11), offset_east_ + 0.02 * wobble(t, 0.13),
-                                             0.04 * wobble(t, 0.09));
-  estimate.v_NB_B =
-      truth_.q_NB.conjugate() * v + 0.012 * Vector3d(wobble(t, 1.1), wobble(t, 1.2), wobble(t, 1.3));
-  estimate.roll = roll + 0.002 * wobble(t, 0.9);
-  estimate.pitch = pitch + 0.002 * wobble(t, 0.8);
-  estimate.heading = wrapped(heading + 0.004 * wobble(t, 0.1));
-  estimate.q_NB = Eigen::AngleAxisd(estimate.heading, Vector3d::UnitZ()) *
-                  Eigen::AngleAxisd(estimate.pitch, Vector3d::UnitY()) *
-                  Eigen::AngleAxisd(estimate.roll, Vector3d::UnitX());
-  estimate.sigma_p_N = Vector3d(0.03, 0.03, 0.05) + Vector3d::Constant(2.0 * std::exp(-t / 1.5));
-  estimate.sigma_v_B = Vector3d::Constant(0.012);
-  estimate.sigma_attitude = Vector3d(0.002, 0.002, 0.004);
-
+  set_estimate(t, {roll, pitch, heading});
   signals_.flight.phase = phase_at(t);
   signals_.flight.fcu.armed = flying;
   autopilot::AngleHeadingRateThrust setpoint;
   setpoint.roll = roll + gust * 0.1;
   setpoint.pitch = pitch;
   if (flying) signals_.setpoint = setpoint;
+}
+
+void SyntheticFlight::set_estimate(double t, const EulerAngles& angles) {
+  autopilot::StateEstimate& estimate = signals_.estimate;
+  estimate.health = autopilot::Health::kGood;
+  estimate.p_NB_N = truth_.p_NB_N + Vector3d(0.03 * wobble(t, 0.11), offset_east_ + 0.02 * wobble(t, 0.13),
+                                             0.04 * wobble(t, 0.09));
+  estimate.v_NB_B = truth_.q_NB.conjugate() * truth_.v_NB_N +
+                    0.012 * Vector3d(wobble(t, 1.1), wobble(t, 1.2), wobble(t, 1.3));
+  estimate.roll = angles.roll + 0.002 * wobble(t, 0.9);
+  estimate.pitch = angles.pitch + 0.002 * wobble(t, 0.8);
+  estimate.heading = wrapped(angles.heading + 0.004 * wobble(t, 0.1));
+  estimate.q_NB = Eigen::AngleAxisd(estimate.heading, Vector3d::UnitZ()) *
+                  Eigen::AngleAxisd(estimate.pitch, Vector3d::UnitY()) *
+                  Eigen::AngleAxisd(estimate.roll, Vector3d::UnitX());
+  estimate.sigma_p_N = Vector3d(0.03, 0.03, 0.05) + Vector3d::Constant(2.0 * std::exp(-t / 1.5));
+  estimate.sigma_v_B = Vector3d::Constant(0.012);
+  estimate.sigma_attitude = Vector3d(0.002, 0.002, 0.004);
 }
 
 ReportRun SyntheticFlight::fly(const std::filesystem::path& folder, const std::string& label,

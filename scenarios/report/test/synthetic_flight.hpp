@@ -8,6 +8,7 @@
 #include "hil_bridge/rosflight/messages.hpp"
 #include "scenarios/record/recorder.hpp"
 #include "scenarios/report/report_run.hpp"
+#include "scenarios/requirements/attitude.hpp"
 #include "scenarios/requirements/judge.hpp"
 #include "simulator/types/truth.hpp"
 
@@ -24,6 +25,7 @@ class SyntheticFlight {
 
  private:
   void set(double t);
+  void set_estimate(double t, const EulerAngles& angles);
 
   double offset_east_;
   simulator::Truth truth_;

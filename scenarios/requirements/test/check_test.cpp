@@ -1,0 +1,321 @@
+#include "scenarios/requirements/check.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <toml++/toml.h>
+
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "autopilot/signals.hpp"
+#include "scenarios/config/toml_reader.hpp"
+#include "simulator/types/truth.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+constexpr double kRoundOff = 1e-9;
+constexpr double kTick = 0.01;  // s
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Reads a check as a scenario file gives it.
+CheckConfig from_toml(std::string_view text) {
+  CheckConfig config;
+  read_toml(toml::parse(text), config);
+  return config;
+}
+
+/// Runs one check over ten seconds of signals given by a function of time.
+class CheckTest : public ::testing::Test {
+ protected:
+  CheckTest() {
+    table_.add("truth", truth_);
+    table_.add("autopilot", signals_);
+  }
+
+  CheckResult run(std::string_view toml, const std::function<void(double)>& set) {
+    Check check(from_toml(toml), {&table_, &signals_.route, kTick});
+    for (int i = 0; i <= 1000; ++i) {
+      const double t = i * kTick;
+      for (const RunEvent& event : script_) {
+        if (std::abs(event.time - t) < kTick / 2.0) timeline_.add(t, event.kind, event.text);
+      }
+      set(t);
+      check.observe(t, timeline_);
+    }
+    return check.result({timeline_, metrics_});
+  }
+  /// North position as a function of time.
+  CheckResult north(std::string_view toml, const std::function<double(double)>& x) {
+    return run("signal = 'truth.p_NB_N.x'\n" + std::string(toml),
+               [&](double t) { truth_.p_NB_N.x() = x(t); });
+  }
+  void expect(const CheckResult& result, Outcome outcome, double margin, double time) const {
+    EXPECT_EQ(name_of(result.outcome), name_of(outcome)) << result.explanation;
+    EXPECT_NEAR(result.margin, margin, kRoundOff) << result.explanation;
+    EXPECT_NEAR(result.time, time, kRoundOff) << result.explanation;
+    EXPECT_FALSE(result.explanation.empty());
+  }
+  std::string refusal(std::string_view toml) {
+    try {
+      const Check check(from_toml(toml), {&table_, &signals_.route, kTick});
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  simulator::Truth truth_;
+  autopilot::Signals signals_;
+  SignalTable table_;
+  Timeline timeline_;
+  std::vector<RunEvent> script_;
+  std::vector<Metric> metrics_;
+};
+
+double ramp(double t) {
+  return t;
+}
+
+TEST_F(CheckTest, StaysBelowHasTheMarginOfTheGreatestValue) {
+  expect(north("stays_below = '12 m'", ramp), Outcome::kPass, 2.0, 10.0);
+  expect(north("stays_below = '950 cm'", ramp), Outcome::kFail, -0.5, 10.0);
+}
+
+TEST_F(CheckTest, StaysAboveHasTheMarginOfTheLeastValue) {
+  expect(north("stays_above = '-1 m'", ramp), Outcome::kPass, 1.0, 0.0);
+  expect(north("stays_above = '1 m'", ramp), Outcome::kFail, -1.0, 0.0);
+}
+
+TEST_F(CheckTest, StaysWithinHasTheMarginOfTheNearerEdge) {
+  expect(north("stays_within = { low = '-3 m', high = '10.5 m' }", ramp), Outcome::kPass, 0.5, 10.0);
+  expect(north("stays_within = { low = '2 m', high = '20 m' }", ramp), Outcome::kFail, -2.0, 0.0);
+}
+
+TEST_F(CheckTest, StaysWithinGoesRoundTheCircle) {
+  const auto hold = [&](double) { signals_.estimate.heading = -179.0 * kDegree; };
+  const CheckResult result = run(
+      "signal = 'autopilot.estimate.heading'\nstays_within = { low = '175 deg', high = '185 deg' }", hold);
+  expect(result, Outcome::kPass, 4.0 * kDegree, 0.0);
+}
+
+TEST_F(CheckTest, ToleratesShortViolationsWhenAsked) {
+  // Above 5 m from 3.00 s to 3.99 s.
+  const auto bump = [](double t) { return t > 2.995 && t < 3.995 ? 7.0 : 1.0; };
+  EXPECT_EQ(north("stays_below = '5 m'", bump).outcome, Outcome::kFail);
+  expect(north("stays_below = '5 m'\ntolerated_for = '1 s'", bump), Outcome::kPass, 4.0, 1.0);
+  expect(north("stays_below = '5 m'\ntolerated_for = '0.9 s'", bump), Outcome::kFail, -2.0, 3.9);
+}
+
+TEST_F(CheckTest, RmsBelowComparesTheRootMeanSquare) {
+  const auto square = [](double t) { return std::fmod(t, 2.0) < 0.995 ? 3.0 : -3.0; };
+  const CheckResult result = north("rms_below = '3.5 m'", square);
+  expect(result, Outcome::kPass, 0.5, 0.0);
+  EXPECT_EQ(north("rms_below = '2.5 m'", square).outcome, Outcome::kFail);
+}
+
+TEST_F(CheckTest, RmsOfAVectorIsThatOfItsNorm) {
+  const auto hold = [&](double) { truth_.p_NB_N = {3.0, 0.0, 4.0}; };
+  expect(run("signal = 'truth.p_NB_N'\nrms_below = '6 m'", hold), Outcome::kPass, 1.0, 0.0);
+}
+
+TEST_F(CheckTest, RmsOfAnErrorTakesAnglesTheShortWay) {
+  const auto hold = [&](double) {
+    signals_.estimate.heading = 179.0 * kDegree;
+    signals_.trajectory.heading = -179.0 * kDegree;
+  };
+  const CheckResult result = run(
+      "error = ['autopilot.estimate.heading', 'autopilot.trajectory.heading']\nrms_below = '3 deg'", hold);
+  expect(result, Outcome::kPass, 1.0 * kDegree, 0.0);
+}
+
+TEST_F(CheckTest, FinalBelowLooksAtTheLastSampleOfTheWindow) {
+  expect(north("final_below = '11 m'", ramp), Outcome::kPass, 1.0, 10.0);
+  expect(north("final_below = '2.5 m'\nuntil = '3 s'", ramp), Outcome::kFail, -0.5, 3.0);
+  expect(north("final_below = '2.5 m'\nto = '9 m'", ramp), Outcome::kPass, 1.5, 10.0);
+}
+
+TEST_F(CheckTest, SettlesOnceItStaysInTheBand) {
+  const auto decay = [](double t) { return 5.0 + 4.0 * std::exp(-t); };
+  // |x - 5| <= 0.5 from t = ln 8 = 2.08 s on.
+  const CheckResult result = north("to = '5 m'\nsettles = { band = '0.5 m', time = '2.5 s' }", decay);
+  expect(result, Outcome::kPass, 0.5 - 4.0 * std::exp(-2.5), 2.5);
+  EXPECT_THAT(result.explanation, ::testing::HasSubstr("settled after 2.08 s"));
+  expect(north("to = '5 m'\nsettles = { band = '0.5 m', time = '2 s' }", decay), Outcome::kFail,
+         0.5 - 4.0 * std::exp(-2.0), 2.0);
+}
+
+TEST_F(CheckTest, SettlesCountsFromTheEvent) {
+  script_ = {{4.0, "fault", "gust"}};
+  const auto gust = [](double t) { return t < 4.0 - kTick / 2.0 ? 100.0 : 4.0 * std::exp(-(t - 4.0)); };
+  expect(north("after = 'gust'\nsettles = { band = '0.5 m', time = '2.5 s' }", gust), Outcome::kPass,
+         0.5 - 4.0 * std::exp(-2.5), 6.5);
+}
+
+TEST_F(CheckTest, SettlesIsOpenWhenTheRunEndsBeforeItsTime) {
+  EXPECT_EQ(north("settles = { band = '1 m', time = '20 s' }", ramp).outcome, Outcome::kInconclusive);
+}
+
+TEST_F(CheckTest, SettlesLeavingTheBandAgainFails) {
+  const auto late = [](double t) { return t > 9.0 ? 2.0 : 0.0; };
+  expect(north("settles = { band = '0.5 m', time = '1 s' }", late), Outcome::kFail, -1.5, 9.01);
+}
+
+TEST_F(CheckTest, OvershootIsMeasuredPastTheTarget) {
+  // From 0 to 5, up to 6 at the top.
+  const auto step = [](double t) { return t < 5.0 ? 1.2 * t : 5.0; };
+  expect(north("to = '5 m'\novershoot_below = '1.5 m'", step), Outcome::kPass, 0.5 + 1.2 * kTick, 4.99);
+  expect(north("to = '5 m'\novershoot_below = '0.5 m'", step), Outcome::kFail, -0.5 + 1.2 * kTick, 4.99);
+  // From above, down to -6: the other direction.
+  const auto fall = [&](double t) { return -step(t); };
+  expect(north("to = '-5 m'\novershoot_below = '1.5 m'", fall), Outcome::kPass, 0.5 + 1.2 * kTick, 4.99);
+  const CheckResult none = north("to = '20 m'\novershoot_below = '1 m'", ramp);
+  expect(none, Outcome::kPass, 11.0, 10.0);
+  EXPECT_THAT(none.explanation, ::testing::HasSubstr("never passed"));
+}
+
+TEST_F(CheckTest, StaysWithinTheTubeAroundThePolyline) {
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, 0, -5), Eigen::Vector3d(10, 0, -5)}) {
+    autopilot::Waypoint waypoint;
+    waypoint.p_N = p;
+    signals_.route.waypoints.push_back(waypoint);
+  }
+  const auto fly = [&](double t) { truth_.p_NB_N = {t, t > 6.995 ? 0.8 : 0.3, -5.0}; };
+  expect(run("signal = 'truth.p_NB_N'\nstays_within_tube = '1 m'", fly), Outcome::kPass, 0.2, 7.0);
+  expect(run("signal = 'truth.p_NB_N'\nstays_within_tube = '0.5 m'", fly), Outcome::kFail, -0.3, 7.0);
+}
+
+TEST_F(CheckTest, ReachesAValueInTime) {
+  expect(north("to = '5 m'\nreaches = { tolerance = '0.1 m', by = '6 s' }", ramp), Outcome::kPass, 0.1, 5.0);
+  expect(north("to = '5 m'\nreaches = { tolerance = '0.1 m', by = '4 s' }", ramp), Outcome::kFail, -0.9, 4.0);
+}
+
+TEST_F(CheckTest, ReachesAPoint) {
+  const auto fly = [&](double t) { truth_.p_NB_N = {t, 0.3, -5.0}; };
+  expect(run("signal = 'truth.p_NB_N'\nto_point = [4, 0, -5]\nreaches = { tolerance = '0.5 m' }", fly),
+         Outcome::kPass, 0.2, 4.0);
+}
+
+TEST_F(CheckTest, HappensWhenAConditionHoldsOnce) {
+  const auto phases = [&](double t) {
+    signals_.flight.phase =
+        t > 3.995 && t < 5.0 ? autopilot::FlightPhase::kOffboard : autopilot::FlightPhase::kHold;
+  };
+  expect(run("happens = 'autopilot.flight.phase == offboard'", phases), Outcome::kPass, 1.0, 4.0);
+  expect(run("never_happens = 'autopilot.flight.phase == offboard'", phases), Outcome::kFail, -1.0, 4.0);
+  expect(run("happens = 'autopilot.flight.phase == landing'", phases), Outcome::kFail, -1.0, 0.0);
+  expect(run("never_happens = 'autopilot.flight.phase == offboard'\nafter = '6 s'", phases), Outcome::kPass,
+         1.0, 6.0);
+}
+
+TEST_F(CheckTest, NeverHappensPassesAtTheEdgeOfAStrictComparison) {
+  const auto nothing = [](double) {};
+  const CheckResult strict = run("never_happens = 'autopilot.flight.fcu.rc_override > 0'", nothing);
+  expect(strict, Outcome::kPass, 0.0, 0.0);
+  EXPECT_EQ(run("never_happens = 'autopilot.flight.fcu.rc_override >= 0'", nothing).outcome, Outcome::kFail);
+}
+
+TEST_F(CheckTest, OrderOfEventsNeedsEachAfterTheOneBefore) {
+  script_ = {{1.0, "phase", "take_off"}, {3.0, "phase", "offboard"}, {8.0, "phase", "landing"}};
+  const auto nothing = [](double) {};
+  expect(run("order_of_events = ['take_off', 'offboard', 'landing']", nothing), Outcome::kPass, 2.0, 3.0);
+  timeline_ = {};
+  expect(run("order_of_events = ['offboard', 'take_off']", nothing), Outcome::kFail, -2.0, 1.0);
+  timeline_ = {};
+  const CheckResult missing = run("order_of_events = ['offboard', 'hold']", nothing);
+  EXPECT_EQ(missing.outcome, Outcome::kFail);
+  EXPECT_EQ(missing.explanation, "hold never happened");
+}
+
+TEST_F(CheckTest, BoundsMetrics) {
+  metrics_ = {{"path_rms_total_m", 0.25, "m", ""}, {"max_tilt_deg", NAN, "deg", ""}};
+  const auto nothing = [](double) {};
+  const CheckResult below = run("metric = 'path_rms_total_m'\nmetric_below = '30 cm'", nothing);
+  EXPECT_EQ(below.outcome, Outcome::kPass);
+  EXPECT_NEAR(below.margin, 0.05, kRoundOff);
+  EXPECT_EQ(run("metric = 'path_rms_total_m'\nmetric_above = '0.3'", nothing).outcome, Outcome::kFail);
+  EXPECT_EQ(run("metric = 'max_tilt_deg'\nmetric_below = '10'", nothing).outcome, Outcome::kInconclusive);
+}
+
+TEST_F(CheckTest, WindowsOpenAndCloseAtTimesAndEvents) {
+  script_ = {{2.0, "fault", "gust"}, {6.0, "fault_end", "gust"}};
+  expect(north("stays_above = '0 m'\nafter = '1.5 s'", ramp), Outcome::kPass, 1.5, 1.5);
+  timeline_ = {};
+  expect(north("stays_above = '0 m'\nafter = 'gust'", ramp), Outcome::kPass, 2.0, 2.0);
+  timeline_ = {};
+  expect(north("stays_above = '0 m'\nafter = 'gust + 500 ms'", ramp), Outcome::kPass, 2.5, 2.5);
+  timeline_ = {};
+  expect(north("stays_below = '10 m'\nuntil = 'fault_end:gust'", ramp), Outcome::kPass, 4.0, 6.0);
+}
+
+TEST_F(CheckTest, IsOpenWhenItsEventNeverHappens) {
+  const CheckResult result = north("stays_below = '1 m'\nafter = 'landing'", ramp);
+  EXPECT_EQ(result.outcome, Outcome::kInconclusive);
+  EXPECT_TRUE(std::isnan(result.margin));
+  EXPECT_EQ(result.explanation, "landing never happened");
+}
+
+TEST_F(CheckTest, IsOpenWhenItsSignalIsNeverThere) {
+  const CheckResult result =
+      run("signal = 'autopilot.sensors.gnss.altitude'\nstays_below = '1 m'", [](double) {});
+  EXPECT_EQ(result.outcome, Outcome::kInconclusive);
+}
+
+TEST_F(CheckTest, FailsWhenASignalIsNotANumber) {
+  const auto breaks = [](double t) { return t > 4.995 ? std::numeric_limits<double>::quiet_NaN() : 0.0; };
+  for (const char* kind : {"stays_below = '1 m'", "rms_below = '1 m'", "final_below = '1 m'"}) {
+    const CheckResult result = north(kind, breaks);
+    EXPECT_EQ(result.outcome, Outcome::kFail) << kind;
+    EXPECT_EQ(result.margin, -std::numeric_limits<double>::infinity());
+    EXPECT_NEAR(result.time, 5.0, kRoundOff);
+  }
+  const auto set = [&](double t) { truth_.p_NB_N.x() = breaks(t); };
+  EXPECT_EQ(run("never_happens = 'truth.p_NB_N.x > 1 m'", set).outcome, Outcome::kFail);
+}
+
+struct Refusal {
+  const char* name;
+  const char* toml;
+  const char* message;
+};
+class RefusalTest : public CheckTest, public ::testing::WithParamInterface<Refusal> {};
+
+TEST_P(RefusalTest, NamesWhatDoesNotFit) {
+  EXPECT_THAT(refusal(GetParam().toml), ::testing::HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, RefusalTest,
+    ::testing::Values(
+        Refusal{"NoKind", "signal = 'truth.p_NB_N'", "asserts nothing, must have one of rms_below"},
+        Refusal{"TwoKinds", "signal = 'truth.p_NB_N'\nrms_below = '1'\nstays_below = '1'",
+                "both rms_below and stays_below"},
+        Refusal{"UnknownSignal", "signal = 'truth.p'\nrms_below = '1'", "no signal truth.p"},
+        Refusal{"NoSignal", "name = 'x'\nrms_below = '1'", "check \"x\": needs a signal"},
+        Refusal{"WrongUnit", "signal = 'truth.p_NB_N'\nrms_below = '1 deg'", "rms_below = \"1 deg\""},
+        Refusal{"Negative", "signal = 'truth.p_NB_N'\nrms_below = '-1 m'", "must be >= 0"},
+        Refusal{"ErrorOfOne", "error = ['truth.p_NB_N']\nrms_below = '1'",
+                "needs a signal, or an error of two signals"},
+        Refusal{"Both", "signal = 'truth.p_NB_N'\nerror = ['a', 'b']\nrms_below = '1'",
+                "signal and error both given"},
+        Refusal{"ScalarTube", "signal = 'truth.p_NB_N.x'\nstays_within_tube = '1 m'", "three components"},
+        Refusal{"VectorOvershoot", "signal = 'truth.p_NB_N'\novershoot_below = '1 m'", "name a component"},
+        Refusal{"PointForNumber", "signal = 'truth.p_NB_N.x'\nto_point = [1, 2, 3]\nfinal_below = '1 m'",
+                "to_point is for"},
+        Refusal{"NumberForPoint", "signal = 'truth.p_NB_N'\nto = '1 m'\nfinal_below = '1 m'", "use to_point"},
+        Refusal{"Band", "signal = 'truth.p_NB_N.x'\nstays_within = { low = '2', high = '1' }", "is above"},
+        Refusal{"Window", "signal = 'truth.p_NB_N.x'\nrms_below = '1'\nafter = '5 s'\nuntil = '4 s'",
+                "is before after"},
+        Refusal{"WindowUnit", "signal = 'truth.p_NB_N.x'\nrms_below = '1'\nafter = '5 m'", "after = \"5 m\""},
+        Refusal{"UnknownMetric", "metric = 'speed'\nmetric_below = '1'", "no such metric"},
+        Refusal{"SignalForEvents", "signal = 'truth.p_NB_N'\norder_of_events = ['a']", "takes neither"},
+        Refusal{"NoEvents", "order_of_events = []", "names no event"}),
+    [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace ironbird::scenarios

@@ -1,0 +1,249 @@
+#include "scenarios/requirements/verdict.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "scenarios/requirements/judge.hpp"
+#include "scenarios/requirements/number_text.hpp"
+#include "scenarios/requirements/verdict_json.hpp"
+#include "scenarios/requirements/verdict_text.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+CheckResult check(const std::string& name, Outcome outcome, double margin) {
+  return {name, "stays_below", outcome, margin, "m", 12.5, "found " + name};
+}
+
+Verdict example() {
+  Verdict verdict;
+  verdict.run = {"three_waypoints", "Three \"waypoints\"", 18446744073709551615ULL, "abc"};
+  verdict.checks = {check("a", Outcome::kPass, 0.1), check("long name", Outcome::kFail, -2.0)};
+  verdict.checks[1].time = std::numeric_limits<double>::quiet_NaN();
+  verdict.metrics = {{"path_rms_total_m", 1.0 / 3.0, "m", "x"}, {"max_tilt_deg", NAN, "deg", "y"}};
+  verdict.events = {{2.5, "phase", "take_off"}};
+  conclude(verdict, {});
+  return verdict;
+}
+
+struct OutcomeCase {
+  const char* name;
+  std::vector<Outcome> checks;
+  std::vector<std::string> promises;
+  Outcome expected;
+  int exit_code;
+};
+class ConcludeTest : public ::testing::TestWithParam<OutcomeCase> {};
+
+TEST_P(ConcludeTest, IsTheWorstOfWhatWasFound) {
+  Verdict verdict;
+  for (const Outcome outcome : GetParam().checks) verdict.checks.push_back(check("c", outcome, 0.0));
+  conclude(verdict, GetParam().promises);
+  EXPECT_EQ(name_of(verdict.outcome), name_of(GetParam().expected));
+  EXPECT_EQ(exit_code(verdict.outcome), GetParam().exit_code);
+  EXPECT_EQ(verdict.reasons.empty(), GetParam().expected == Outcome::kPass);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, ConcludeTest,
+    ::testing::Values(
+        OutcomeCase{"Pass", {Outcome::kPass, Outcome::kPass}, {}, Outcome::kPass, 0},
+        OutcomeCase{"Fail", {Outcome::kPass, Outcome::kFail}, {}, Outcome::kFail, 1},
+        OutcomeCase{"Open", {Outcome::kPass, Outcome::kInconclusive}, {}, Outcome::kInconclusive, 5},
+        OutcomeCase{"FailThenOpen", {Outcome::kFail, Outcome::kInconclusive}, {}, Outcome::kFail, 1},
+        OutcomeCase{"OpenThenFail", {Outcome::kInconclusive, Outcome::kFail}, {}, Outcome::kFail, 1},
+        OutcomeCase{"NoChecks", {}, {}, Outcome::kInconclusive, 5},
+        OutcomeCase{"Invalid", {Outcome::kFail}, {"the plant diverged"}, Outcome::kInvalid, 5}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(ExitCodeTest, OfSeveralRunsIsZeroOnlyWhenAllPass) {
+  Verdict pass, fail, invalid;
+  pass.outcome = Outcome::kPass;
+  fail.outcome = Outcome::kFail;
+  invalid.outcome = Outcome::kInvalid;
+  EXPECT_EQ(exit_code(std::vector<Verdict>{pass, pass}), 0);
+  EXPECT_EQ(exit_code(std::vector<Verdict>{pass, invalid}), 5);
+  EXPECT_EQ(exit_code(std::vector<Verdict>{invalid, fail}), 1);
+}
+
+TEST(VerdictJsonTest, HasItsKeysInTheAgreedOrder) {
+  const std::string expected = R"({
+  "scenario": "three_waypoints",
+  "title": "Three \"waypoints\"",
+  "seed": 18446744073709551615,
+  "digest": "abc",
+  "verdict": "fail",
+  "reasons": [
+    "long name: found long name"
+  ],
+  "checks": [
+    {
+      "name": "a",
+      "kind": "stays_below",
+      "verdict": "pass",
+      "margin": 0.1,
+      "unit": "m",
+      "time": 12.5,
+      "explanation": "found a"
+    },
+    {
+      "name": "long name",
+      "kind": "stays_below",
+      "verdict": "fail",
+      "margin": -2.0,
+      "unit": "m",
+      "time": null,
+      "explanation": "found long name"
+    }
+  ],
+  "metrics": {
+    "path_rms_total_m": 0.3333333333333333,
+    "max_tilt_deg": null
+  },
+  "events": [
+    {
+      "time": 2.5,
+      "kind": "phase",
+      "text": "take_off"
+    }
+  ]
+}
+)";
+  EXPECT_EQ(to_json(example()), expected);
+}
+
+TEST(VerdictJsonTest, ReadsBackWhatItWrote) {
+  const Verdict verdict = verdict_from_json(to_json(example()));
+  EXPECT_EQ(to_json(verdict), to_json(example()));
+  EXPECT_EQ(verdict.metrics[0].unit, "m");
+  EXPECT_TRUE(std::isnan(verdict.checks[1].time));
+}
+
+TEST(VerdictJsonTest, RefusesWhatIsNoVerdict) {
+  EXPECT_THROW(verdict_from_json("{}"), std::invalid_argument);
+  EXPECT_THROW(verdict_from_json("nonsense"), std::invalid_argument);
+  EXPECT_THROW(read_verdict("/nonexistent/verdict.json"), std::runtime_error);
+  EXPECT_THROW(write_verdict(example(), "/nonexistent/verdict.json"), std::runtime_error);
+}
+
+TEST(VerdictJsonTest, SurvivesTextThatIsNotUtf8) {
+  Verdict verdict = example();
+  verdict.events[0].text = "\xff";
+  EXPECT_NO_THROW(verdict_from_json(to_json(verdict)));
+}
+
+TEST(VerdictTableTest, AlignsItsColumns) {
+  const std::string expected =
+      "three_waypoints: Three \"waypoints\" (seed 18446744073709551615)\n"
+      "  verdict       check      margin  at      what was found\n"
+      "  pass          a          +0.1 m  12.5 s  found a\n"
+      "  fail          long name  -2 m    -       found long name\n"
+      "fail: 1 of 2 checks hold\n";
+  EXPECT_EQ(verdict_table(example(), false), expected);
+}
+
+TEST(VerdictTableTest, ColoursOnlyWhenAsked) {
+  EXPECT_THAT(verdict_table(example(), true), HasSubstr("\x1b[1;31mfail"));
+  EXPECT_THAT(verdict_table(example(), false), ::testing::Not(HasSubstr("\x1b")));
+}
+
+TEST(VerdictLinesTest, SaysOneThingPerLine) {
+  EXPECT_EQ(verdict_lines(example()),
+            "three_waypoints: pass: a: margin +0.1 m: found a\n"
+            "three_waypoints: fail: long name: margin -2 m: found long name\n"
+            "three_waypoints: fail\n");
+}
+
+TEST(NumberTextTest, ShowsFourDigitsAndDegrees) {
+  EXPECT_EQ(with_unit(0.0431234, "m"), "0.04312 m");
+  EXPECT_EQ(with_unit(3.14159265358979 / 4.0, "rad"), "45 deg");
+  EXPECT_EQ(with_unit(-0.0, "1"), "0");
+  EXPECT_EQ(short_number(123456.7), "123457");
+  EXPECT_EQ(short_number(std::numeric_limits<double>::quiet_NaN()), "-");
+}
+
+class JudgeTest : public ::testing::Test {
+ protected:
+  JudgeTest() {
+    table_.add("truth", truth_);
+    table_.add("autopilot", signals_);
+  }
+  simulator::Truth truth_;
+  autopilot::Signals signals_;
+  SignalTable table_;
+};
+
+TEST_F(JudgeTest, SeesPhasesArmingAndWaypointsAsEvents) {
+  Judge judge({}, table_, {&truth_, &signals_}, 10ms);
+  judge.observe(0ms);
+  EXPECT_TRUE(judge.events().empty());
+  signals_.flight.fcu.armed = true;
+  signals_.flight.phase = autopilot::FlightPhase::kTakeOff;
+  judge.observe(10ms);
+  signals_.trajectory.reached = 2;
+  judge.event(20ms, "fault", "gust");
+  judge.observe(20ms);
+  signals_.trajectory.finished = true;
+  judge.observe(30ms);
+  judge.observe(40ms);
+  std::string all;
+  for (const RunEvent& event : judge.events()) all += event.kind + ":" + event.text + " ";
+  EXPECT_EQ(all,
+            "arming:armed phase:take_off fault:gust waypoint:waypoint_1 waypoint:waypoint_2 "
+            "waypoint:route_finished ");
+  EXPECT_EQ(judge.events()[1].time, 0.01);
+}
+
+TEST_F(JudgeTest, LetsAChecksWindowOpenAtItsOwnEvents) {
+  CheckConfig config;
+  config.name = "low in offboard";
+  config.signal = "truth.p_NB_N.z";
+  config.stays_below = "-1 m";
+  config.after = "offboard";
+  Judge judge({config}, table_, {&truth_, &signals_}, 10ms);
+  for (int i = 0; i < 100; ++i) {
+    if (i == 50) signals_.flight.phase = autopilot::FlightPhase::kOffboard;
+    truth_.p_NB_N.z() = i < 50 ? 0.0 : -3.0;
+    judge.observe(i * 10ms);
+  }
+  const Verdict verdict = judge.finish({"s", "t", 1, "d"}, {}, 0.0);
+  EXPECT_EQ(verdict.outcome, Outcome::kPass) << verdict.checks[0].explanation;
+  EXPECT_EQ(verdict.checks[0].margin, 2.0);
+  EXPECT_EQ(verdict.checks[0].time, 0.5);
+}
+
+TEST_F(JudgeTest, NamesTheCheckThatDoesNotFit) {
+  CheckConfig config;
+  config.name = "broken";
+  config.signal = "truth.nothing";
+  config.rms_below = "1";
+  try {
+    const Judge judge({config}, table_, {&truth_, &signals_}, 10ms);
+    FAIL() << "it was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("check \"broken\": no signal truth.nothing"));
+  }
+}
+
+TEST(TimelineTest, CallsEventsByTextKindOrBoth) {
+  Timeline timeline;
+  timeline.add(1.0, "fault", "gust");
+  timeline.add(2.0, "fault_end", "gust");
+  EXPECT_EQ(timeline.first("gust"), 1.0);
+  EXPECT_EQ(timeline.first("fault"), 1.0);
+  EXPECT_EQ(timeline.first("fault_end:gust"), 2.0);
+  EXPECT_EQ(timeline.first("gust", 1.5), 2.0);
+  EXPECT_EQ(timeline.first("gus"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace ironbird::scenarios
