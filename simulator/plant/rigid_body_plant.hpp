@@ -15,6 +15,7 @@ class RigidBodyPlant final : public Plant {
   const RotorSpeeds& rotors() const override { return rotors_; }
   bool in_contact() const override { return false; }
   const char* failure() const override;
+  double contact_step() const override { return 5e-3; }
 
  private:
   MassProperties mass_;
