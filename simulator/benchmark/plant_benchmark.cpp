@@ -90,17 +90,16 @@ void step_bare(benchmark::State& timing, const std::string& mjcf) {
 }
 
 void BareLeanMujoco(benchmark::State& timing) {
-  step_bare(
-      timing,
-      R"(<mujoco><option timestep="0.0025" integrator="RK4"><flag equality="disable" frictionloss="disable"
-    limit="disable" constraint="disable" contact="disable" passive="disable" clampctrl="disable" sensor="disable"/></option><worldbody>
-    <body><freejoint/><inertial pos="0 0 0" mass="3.5" diaginertia="0.08 0.08 0.12"/></body></worldbody></mujoco>)");
+  step_bare(timing, R"(<mujoco><option timestep="0.0025" integrator="RK4">
+    <flag equality="disable" frictionloss="disable" limit="disable" constraint="disable" contact="disable"
+     passive="disable" clampctrl="disable" sensor="disable"/></option>
+    <worldbody><body><freejoint/><inertial pos="0 0 0" mass="3.5" diaginertia="0.08 0.08 0.12"/></body>
+    </worldbody></mujoco>)");
 }
 
 void NaiveMujoco(benchmark::State& timing) {
-  step_bare(timing,
-            R"(<mujoco><option timestep="0.0025" integrator="RK4" density="1.2" viscosity="2e-5"/><worldbody>
-    <geom type="plane" size="0 0 1"/><body><freejoint/>
+  step_bare(timing, R"(<mujoco><option timestep="0.0025" integrator="RK4" density="1.2" viscosity="2e-5"/>
+    <worldbody><geom type="plane" size="0 0 1"/><body><freejoint/>
     <geom type="box" size="0.1 0.1 0.03" mass="2.3"/>
     <geom type="cylinder" size="0.19 0.005" pos="0.18 -0.18 0.03" mass="0.3"/>
     <geom type="cylinder" size="0.19 0.005" pos="-0.18 -0.18 0.03" mass="0.3"/>
@@ -108,8 +107,8 @@ void NaiveMujoco(benchmark::State& timing) {
     <geom type="cylinder" size="0.19 0.005" pos="0.18 0.18 0.03" mass="0.3"/>
     <geom type="box" size="0.15 0.15 0.01" pos="0 0 -0.15"/>
     <site name="a" pos="0.18 -0.18 0.03"/><site name="b" pos="-0.18 -0.18 0.03"/>
-    <site name="c" pos="-0.18 0.18 0.03"/><site name="d" pos="0.18 0.18 0.03"/></body></worldbody><actuator>
-    <motor site="a" gear="0 0 1 0 0 -0.0187"/><motor site="b" gear="0 0 1 0 0 0.0187"/>
+    <site name="c" pos="-0.18 0.18 0.03"/><site name="d" pos="0.18 0.18 0.03"/></body></worldbody>
+    <actuator><motor site="a" gear="0 0 1 0 0 -0.0187"/><motor site="b" gear="0 0 1 0 0 0.0187"/>
     <motor site="c" gear="0 0 1 0 0 -0.0187"/><motor site="d" gear="0 0 1 0 0 0.0187"/></actuator></mujoco>)");
 }
 

@@ -34,6 +34,7 @@ class MujocoPlant final : public Plant {
     state_ = state;
     state_.q_NB.normalize();
     rotors_ = rotors;
+    rotor_rates_.fill(RotorSpeeds::Zero());
     failure_ = nullptr;
     in_contact_ = false;
     choose(proximity_.update(state.p_NB_N, state.v_NB_N.norm()));

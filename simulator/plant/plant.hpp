@@ -70,8 +70,8 @@ class Plant {
   /// Why the engine can no longer be believed (it reset itself, or its state is not finite), or null.
   virtual const char* failure() const { return nullptr; }
 
-  /// The longest step, s, that keeps the engine's contact well behaved at this height above the ground. The
-  /// world divides its step by it when the vehicle is near something.
+  /// The longest step, s, that is well behaved where the vehicle is now: short within reach of something. The
+  /// world divides its step by it.
   virtual double contact_step() const { return 0.5e-3; }
 };
 

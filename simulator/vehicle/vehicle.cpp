@@ -93,14 +93,16 @@ void Vehicle::add_rotors(const RotorSpeeds& rotors, const Flow& flow, const Vect
   for (int i = 0; i < rotor_count_; ++i) {
     const double speed = std::max(rotors[i], 0.0);
     const double thrust = efficiency_[i] * flow.gain * rotor_.thrust(speed, flow.inflow, flow.density);
-    const double torque = efficiency_[i] * rotor_.torque(speed, flow.inflow, flow.density);
+    // Without power the blades still brake in the air, even when they count for nothing else.
+    const double braking = efficiency_[i] > 0.0 ? efficiency_[i] : 1.0;
+    const double torque = braking * rotor_.torque(speed, flow.inflow, flow.density);
     const double driven = drive_[i] > 0.0 ? rotor_.current(drive_[i] * voltage, speed) : 0.0;
     const double shaft_torque = K * (driven - rotor_.friction_current(speed));
     forces.rotor_acceleration[i] = (shaft_torque - torque) * inverse_rotor_inertia_;
     thrust_sum += thrust;
     M_B.x() -= y_[i] * thrust;
     M_B.y() += x_[i] * thrust;
-    M_B.z() -= direction_[i] * shaft_torque;  // = Q + J_r dw/dt
+    M_B.z() -= direction_[i] * shaft_torque;  // Q + J_r dw/dt
     h_z += direction_[i] * J_r * speed;
   }
   M_B.x() -= w_NB_B.y() * h_z;

@@ -47,7 +47,8 @@ class Vehicle : public ForceModel {
   double battery_current() const { return current_; }                    ///< A, >= 0
   double battery_charge_used() const { return battery_.charge_used(); }  ///< A*s
 
-  /// Rotor `rotor` gives `efficiency`, 0..1, of its thrust and torque. At 0 its motor has no power either.
+  /// Rotor `rotor` gives `efficiency`, 0..1, of its thrust and torque. At 0 its motor has no power either,
+  /// and the air stops it.
   void set_rotor_efficiency(int rotor, double efficiency);
   /// From now on the battery has `fraction`, 0..1, of its capacity left.
   void set_battery_charge(double fraction);

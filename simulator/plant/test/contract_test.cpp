@@ -138,6 +138,13 @@ TYPED_TEST(PlantContractTest, MovesRotorSpeedsWithTheirRates) {
   EXPECT_EQ(this->plant_->rotors()[7], 7.0);
 }
 
+TYPED_TEST(PlantContractTest, TakesATickInOneStepHighInTheAir) {
+  RigidBodyState state;
+  state.p_NB_N.z() = -50.0;
+  this->plant_->reset(state, RotorSpeeds::Zero());
+  EXPECT_GE(this->plant_->contact_step(), 2.5e-3);
+}
+
 TYPED_TEST(PlantContractTest, SaysSoWhenItsStateIsNoNumber) {
   HeldWrench broken;
   RigidBodyState state;

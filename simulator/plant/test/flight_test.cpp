@@ -183,5 +183,36 @@ TYPED_TEST(FlightTest, GainsTheOrderOfItsSchemeWhenTheStepIsHalved) {
   }
 }
 
+/// Answers every stage of a step as the first one.
+struct Held : ForceModel {
+  ForceModel* forces = nullptr;
+  Forces first;
+  Forces evaluate(const RigidBodyState& state, const RotorSpeeds& rotors, double offset) override {
+    if (offset == 0.0) first = forces->evaluate(state, rotors, offset);
+    return first;
+  }
+};
+
+TEST(HeldForcesTest, MakeAFourthOrderSchemeFirstOrder) {
+  const auto error = [](double dt) {
+    const MassProperties mass{3.5, diagonal(0.08, 0.08, 0.12)};
+    FigureOfEight forces(mass.mass, mass.J_Bcm_B);
+    Held held;
+    held.forces = &forces;
+    RigidBodyPlant plant;
+    plant.configure(mass, kGravity);
+    plant.reset(FigureOfEight::start(), forces.hover());
+    for (int i = 0; i < std::lround(10.0 / dt); ++i) {
+      forces.set_start(i * dt);
+      plant.step(dt, held);
+    }
+    return (plant.state().p_NB_N - oracle().states.back().p_NB_N).norm();
+  };
+  const double fine = error(0.5e-3);
+  EXPECT_NEAR(std::log2(error(1e-3) / fine), 1.0, 0.1);
+  constexpr double kThousandTimesTheStaged = 1e-8;  // m
+  EXPECT_GT(fine, kThousandTimesTheStaged);
+}
+
 }  // namespace
 }  // namespace ironbird::simulator

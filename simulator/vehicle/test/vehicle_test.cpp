@@ -240,7 +240,9 @@ TEST_F(VehicleTest, LosesARotor) {
   vehicle.set_rotor_efficiency(2, 0.0);
   const Forces dead = vehicle.evaluate(RigidBodyState{}, hover, 0.0);
   EXPECT_NEAR(dead.wrench.F_Bcm_B.z(), whole * 3.0 / 4.0, kRounding);
-  EXPECT_LT(dead.rotor_acceleration[2], 0.0);
+  const Rotor rotor(vehicle.params().rotor);
+  const double drag = rotor.torque(hover[2], 0.0, 1.074) + 0.028937 * 1.5;  // air and friction
+  EXPECT_NEAR(dead.rotor_acceleration[2], -drag / 3e-4, 1e-6);
   vehicle.set_rotor_efficiency(2, 1.0);
   EXPECT_NEAR(vehicle.evaluate(RigidBodyState{}, hover, 0.0).wrench.F_Bcm_B.z(), whole, kRounding);
 }
