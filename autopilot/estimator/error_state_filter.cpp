@@ -18,6 +18,7 @@ constexpr int kA = ErrorState::kAccelerometerBias;
 constexpr int kW = ErrorState::kGnssWalk;
 constexpr int kB = ErrorState::kBaroWalk;
 
+constexpr double kLeastTurn = 1.0e-4;       // rad, below it the turn of the covariance is lost in it
 constexpr double kLeastLevelness = 1.0e-9;  // of a field that still has an azimuth
 
 double square(double a) {
@@ -92,6 +93,21 @@ void ErrorStateFilter::predict(const Vector3& f_B, const Vector3& w_B, double dt
   x_ = next;
 }
 
+void ErrorStateFilter::inject(const ErrorState::Vector& correction) {
+  x_ = x_.plus(correction);
+  const Vector3 turn = correction.segment<3>(kT);
+  if (turn.squaredNorm() < kLeastTurn * kLeastTurn) return;
+  // The attitude error is now measured from the turned attitude: Log(Exp(-turn) Exp(e)) = (I - [turn]x/2)(e -
+  // turn).
+  const Matrix3 turned = Matrix3::Identity() - 0.5 * skew(turn);
+  const Eigen::Matrix<double, ErrorState::kSize, 3> columns =
+      P_.middleCols<3>(kT).lazyProduct(turned.transpose());
+  const Matrix3 attitude = turned * columns.middleRows<3>(kT);
+  P_.middleCols<3>(kT) = columns;
+  P_.middleRows<3>(kT) = columns.transpose();
+  P_.block<3, 3>(kT, kT) = 0.5 * (attitude + attitude.transpose());
+}
+
 void ErrorStateFilter::forget(int first, int size, double variance) {
   P_.middleRows(first, size).setZero();
   P_.middleCols(first, size).setZero();
@@ -117,7 +133,7 @@ void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
   }
   Update update;
   update.fuse_block<3>(P_, model.innovation, model.H, kT, R);
-  x_ = x_.plus(update.correction);
+  inject(update.correction);
 }
 
 void ErrorStateFilter::correct_baro(double difference, Time now) {
@@ -140,14 +156,14 @@ void ErrorStateFilter::correct_baro(double difference, Time now) {
   }
   Update update;
   update.fuse(P_, innovation, PCt, CPCt, 0.0, R);
-  x_ = x_.plus(update.correction);
+  inject(update.correction);
 }
 
 void ErrorStateFilter::correct_gnss(const GnssObservation& fix, Time now) {
   Update update;
   fuse_velocity(fix, now, update);
   fuse_position(fix, now, update);
-  x_ = x_.plus(update.correction);
+  inject(update.correction);
 }
 
 void ErrorStateFilter::fuse_velocity(const GnssObservation& fix, Time now, Update& update) {

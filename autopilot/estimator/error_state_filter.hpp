@@ -90,6 +90,7 @@ class ErrorStateFilter : public Tunable<AidedEstimator, ErrorStateParams> {
   using Update = ScalarUpdate<ErrorState::kSize>;
 
   void rebuild_step_constants(double h);
+  void inject(const ErrorState::Vector& correction);
   void forget(int first, int size, double variance);
   void fuse_velocity(const GnssObservation& fix, Time now, Update& update);
   void fuse_position(const GnssObservation& fix, Time now, Update& update);
