@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 
+#include "autopilot/estimator/ekf_measurements.hpp"
+
 namespace ironbird::autopilot {
 
 namespace {
@@ -116,23 +118,24 @@ void ErrorStateFilter::forget(int first, int size, double variance) {
 
 void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
   const MagParams& wanted = aiding().mag;
-  const ErrorMagModel model = error_state_mag(x_, m_B, wanted.declination);
+  const double innovation = error_state_mag(x_, m_B, wanted.declination).innovation;
+  const Vector3 down_B = x_.q_NB.conjugate() * Vector3::UnitZ();
+  const ErrorMagModel model =
+      error_state_mag(x_, expected_field(m_B, down_B, innovation), wanted.declination);
   // Noise of the unit vector turns the azimuth by itself over the horizontal part.
   const double R =
       square(wanted.sigma) / std::max(model.levelness, kLeastLevelness) + square(wanted.sigma_tilt);
   const double S = model.H * P_.block<3, 3>(kT, kT) * model.H.transpose() + R;
-  innovations_.heading = model.innovation;
-  const Verdict verdict =
-      mag_gate().judge(square(model.innovation) / S, wanted.gate, wanted.persistence, now);
+  innovations_.heading = innovation;
+  const Verdict verdict = mag_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
-    const Vector3 down_B = x_.q_NB.conjugate() * Vector3::UnitZ();
-    x_.q_NB = (Quaternion(Eigen::AngleAxisd(model.innovation, Vector3::UnitZ())) * x_.q_NB).normalized();
+    x_.q_NB = (Quaternion(Eigen::AngleAxisd(innovation, Vector3::UnitZ())) * x_.q_NB).normalized();
     P_.block<3, 3>(kT, kT) += R * down_B * down_B.transpose();
     return;
   }
   Update update;
-  update.fuse_block<3>(P_, model.innovation, model.H, kT, R);
+  update.fuse_block<3>(P_, innovation, model.H, kT, R);
   inject(update.correction);
 }
 
