@@ -52,7 +52,6 @@ struct ErrorStateParams {
     AidingParams aiding;
     aiding.gnss.sigma_horizontal = 0.3;
     aiding.gnss.sigma_vertical = 0.6;
-    aiding.initial.position = 0.05;
     return aiding;
   }
 
