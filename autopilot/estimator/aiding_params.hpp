@@ -112,7 +112,7 @@ struct AlignmentParams {
 
 /// How wrong the first state may be.
 struct InitialSigmaParams {
-  double position = 0.1;
+  double position = 0.05;
   double velocity = 0.05;
   double tilt = 0.01;
   double heading = 0.05;

@@ -110,17 +110,19 @@ void Ekf::forget(int first, int size, double variance) {
 
 void Ekf::correct_mag(const Vector3& m_B, Time now) {
   const MagParams& wanted = aiding().mag;
-  const MagModel model = ekf_mag(m_B, trig_, wanted.declination);
+  const double heading = ekf_mag(m_B, trig_, wanted.declination).y;
+  const double innovation = shortest_difference(heading, x_.theta.z());
+  const Vector3 down_B = rotation_NB(trig_).row(2).transpose();
+  const MagModel model = ekf_mag(expected_field(m_B, down_B, innovation), trig_, wanted.declination);
   const double R = model.R(square(wanted.sigma), square(wanted.sigma_tilt));
   const Eigen::Matrix<double, 1, 3> H = model.H();
-  const double innovation = shortest_difference(model.y, x_.theta.z());
   const double S = H * P_.block<3, 3>(kT, kT) * H.transpose() + R;
   innovations_.heading = innovation;
   const Verdict verdict = mag_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
     forget(kHeading, 1, R);
-    set_attitude({x_.theta.x(), x_.theta.y(), model.y});
+    set_attitude({x_.theta.x(), x_.theta.y(), heading});
     return;
   }
   Update update;

@@ -16,7 +16,7 @@ struct EkfNoiseParams {
   bool reference_scaling = false;
   double position = 0.0;
   double height = 0.0;
-  double velocity = 1.0e-4;
+  double velocity = 1.0e-3;
   double roll_pitch = 1.0e-8;
   double heading = 1.0e-8;
   double gyro_bias = 1.0e-10;

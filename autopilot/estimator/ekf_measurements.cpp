@@ -23,6 +23,12 @@ GnssVelocityModel ekf_gnss_velocity(const EkfState& x, const EulerTrig& at) {
   return model;
 }
 
+Vector3 expected_field(const Vector3& m_B, const Vector3& down_B, double innovation) {
+  const double cosine = std::cos(innovation);
+  return cosine * m_B + std::sin(innovation) * down_B.cross(m_B) +
+         ((1.0 - cosine) * down_B.dot(m_B)) * down_B;
+}
+
 MagModel ekf_mag(const Vector3& m_B, const EulerTrig& at, double declination) {
   // m1 = Ry(theta) Rx(phi) m, its horizontal part.
   const double z_rolled = at.s_phi * m_B.y() + at.c_phi * m_B.z();

@@ -49,6 +49,13 @@ struct MagModel {
   }
 };
 
+/// The measured field turned about down by the innovation, so that it points where the state expects it. F, G
+/// and H belong to this field: taken at the measured one, its noise would be in H and in the innovation
+/// alike, and their correlation pulls the tilt (docs/equations.md, section 5).
+/// @param down_B  unit vector down, in B
+/// @param innovation  measured less predicted heading, rad
+Vector3 expected_field(const Vector3& m_B, const Vector3& down_B, double innovation);
+
 /// @param m_B  unit vector along the magnetic field
 /// @param declination  rad
 MagModel ekf_mag(const Vector3& m_B, const EulerTrig& at, double declination);

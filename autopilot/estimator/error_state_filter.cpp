@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 
+#include "autopilot/estimator/ekf_measurements.hpp"
+
 namespace ironbird::autopilot {
 
 namespace {
@@ -18,6 +20,7 @@ constexpr int kA = ErrorState::kAccelerometerBias;
 constexpr int kW = ErrorState::kGnssWalk;
 constexpr int kB = ErrorState::kBaroWalk;
 
+constexpr double kLeastTurn = 1.0e-4;       // rad, below it the turn of the covariance is lost in it
 constexpr double kLeastLevelness = 1.0e-9;  // of a field that still has an azimuth
 
 double square(double a) {
@@ -92,6 +95,21 @@ void ErrorStateFilter::predict(const Vector3& f_B, const Vector3& w_B, double dt
   x_ = next;
 }
 
+void ErrorStateFilter::inject(const ErrorState::Vector& correction) {
+  x_ = x_.plus(correction);
+  const Vector3 turn = correction.segment<3>(kT);
+  if (turn.squaredNorm() < kLeastTurn * kLeastTurn) return;
+  // The attitude error is now measured from the turned attitude: Log(Exp(-turn) Exp(e)) = (I - [turn]x/2)(e -
+  // turn).
+  const Matrix3 turned = Matrix3::Identity() - 0.5 * skew(turn);
+  const Eigen::Matrix<double, ErrorState::kSize, 3> columns =
+      P_.middleCols<3>(kT).lazyProduct(turned.transpose());
+  const Matrix3 attitude = turned * columns.middleRows<3>(kT);
+  P_.middleCols<3>(kT) = columns;
+  P_.middleRows<3>(kT) = columns.transpose();
+  P_.block<3, 3>(kT, kT) = 0.5 * (attitude + attitude.transpose());
+}
+
 void ErrorStateFilter::forget(int first, int size, double variance) {
   P_.middleRows(first, size).setZero();
   P_.middleCols(first, size).setZero();
@@ -100,24 +118,25 @@ void ErrorStateFilter::forget(int first, int size, double variance) {
 
 void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
   const MagParams& wanted = aiding().mag;
-  const ErrorMagModel model = error_state_mag(x_, m_B, wanted.declination);
+  const double innovation = error_state_mag(x_, m_B, wanted.declination).innovation;
+  const Vector3 down_B = x_.q_NB.conjugate() * Vector3::UnitZ();
+  const ErrorMagModel model =
+      error_state_mag(x_, expected_field(m_B, down_B, innovation), wanted.declination);
   // Noise of the unit vector turns the azimuth by itself over the horizontal part.
   const double R =
       square(wanted.sigma) / std::max(model.levelness, kLeastLevelness) + square(wanted.sigma_tilt);
   const double S = model.H * P_.block<3, 3>(kT, kT) * model.H.transpose() + R;
-  innovations_.heading = model.innovation;
-  const Verdict verdict =
-      mag_gate().judge(square(model.innovation) / S, wanted.gate, wanted.persistence, now);
+  innovations_.heading = innovation;
+  const Verdict verdict = mag_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
-    const Vector3 down_B = x_.q_NB.conjugate() * Vector3::UnitZ();
-    x_.q_NB = (Quaternion(Eigen::AngleAxisd(model.innovation, Vector3::UnitZ())) * x_.q_NB).normalized();
+    x_.q_NB = (Quaternion(Eigen::AngleAxisd(innovation, Vector3::UnitZ())) * x_.q_NB).normalized();
     P_.block<3, 3>(kT, kT) += R * down_B * down_B.transpose();
     return;
   }
   Update update;
-  update.fuse_block<3>(P_, model.innovation, model.H, kT, R);
-  x_ = x_.plus(update.correction);
+  update.fuse_block<3>(P_, innovation, model.H, kT, R);
+  inject(update.correction);
 }
 
 void ErrorStateFilter::correct_baro(double difference, Time now) {
@@ -140,14 +159,14 @@ void ErrorStateFilter::correct_baro(double difference, Time now) {
   }
   Update update;
   update.fuse(P_, innovation, PCt, CPCt, 0.0, R);
-  x_ = x_.plus(update.correction);
+  inject(update.correction);
 }
 
 void ErrorStateFilter::correct_gnss(const GnssObservation& fix, Time now) {
   Update update;
   fuse_velocity(fix, now, update);
   fuse_position(fix, now, update);
-  x_ = x_.plus(update.correction);
+  inject(update.correction);
 }
 
 void ErrorStateFilter::fuse_velocity(const GnssObservation& fix, Time now, Update& update) {

@@ -52,7 +52,6 @@ struct ErrorStateParams {
     AidingParams aiding;
     aiding.gnss.sigma_horizontal = 0.3;
     aiding.gnss.sigma_vertical = 0.6;
-    aiding.initial.position = 0.05;
     return aiding;
   }
 
@@ -90,6 +89,7 @@ class ErrorStateFilter : public Tunable<AidedEstimator, ErrorStateParams> {
   using Update = ScalarUpdate<ErrorState::kSize>;
 
   void rebuild_step_constants(double h);
+  void inject(const ErrorState::Vector& correction);
   void forget(int first, int size, double variance);
   void fuse_velocity(const GnssObservation& fix, Time now, Update& update);
   void fuse_position(const GnssObservation& fix, Time now, Update& update);

@@ -211,6 +211,20 @@ TEST(JacobianTest, StaysFiniteAtThePole) {
   }
 }
 
+TEST(ExpectedFieldTest, PointsWhereTheStateExpectsIt) {
+  const Vector3 theta(0.3, -0.2, 1.1);
+  const EulerTrig at(theta);
+  const Matrix3 R_NB = rotation_NB(at);
+  const Vector3 m_B = R_NB.transpose() * kField;
+  const double innovation = shortest_difference(ekf_mag(m_B, at, 0.6).y, theta.z());
+  EXPECT_GT(std::abs(innovation), 0.1);
+  const Vector3 expected_B = expected_field(m_B, R_NB.row(2).transpose(), innovation);
+  constexpr double kRoundOff = 1.0e-12;
+  EXPECT_NEAR(ekf_mag(expected_B, at, 0.6).y, theta.z(), kRoundOff);
+  EXPECT_NEAR((R_NB * expected_B).z(), kField.z(), kRoundOff);
+  EXPECT_NEAR(expected_B.norm(), 1.0, kRoundOff);
+}
+
 TEST(JacobianTest, StaysFiniteWhenTheFieldIsVertical) {
   const MagModel model = ekf_mag(Vector3::UnitZ(), EulerTrig(Vector3::Zero()), 0.0);
   EXPECT_TRUE(model.F.allFinite());
