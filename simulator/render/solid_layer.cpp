@@ -77,6 +77,9 @@ struct SolidLayer::Engine {
     model->vis.global.offheight = max_height;
     model->vis.quality.offsamples = 0;
     model->vis.quality.shadowsize = 0;
+    model->vis.quality.numslices = 16;
+    model->vis.quality.numstacks = 8;
+    model->vis.quality.numquads = 1;
     data = mj_makeData(model);
     hidden.assign(static_cast<std::size_t>(model->ngeom), false);
     mjv_defaultScene(&scene);
