@@ -105,7 +105,8 @@ TEST_F(FilmTest, IsTheSameForAnyNumberOfWorkersAndThreads) {
   const FilmScript script = circle(7, 320, 180);
   ASSERT_TRUE(film_to_file(script, folder_ / "one.y4m", 1));
   const std::string expected = bytes(folder_ / "one.y4m");
-  EXPECT_EQ(expected.size(), 60U + 7U * (6U + 320U * 180U * 3U / 2U) + std::string("320180").size() - 2U)
+  const std::string header = "YUV4MPEG2 W320 H180 F30:1 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n";
+  EXPECT_EQ(expected.size(), header.size() + 7U * (6U + 320U * 180U * 3U / 2U))
       << "header, then seven frames";
   for (const char* threads : {"0", "1", "2"}) {
     ::setenv("LP_NUM_THREADS", threads, 1);

@@ -24,16 +24,19 @@ class SceneRendererTest : public ::testing::TestWithParam<const char*> {
     return {kModels + vehicle + "/scene.xml", kModels + "fields/flat.xml", 640, 360, quality};
   }
 
+  // Away from the compass rose, whose north is red too.
+  static constexpr double kNorth = 40.0;
+
   static RenderSample sample(double roll, double heading) {
     RenderSample s;
-    s.pose.p_NB_N = Vector3(0.0, 0.0, -6.0);
+    s.pose.p_NB_N = Vector3(kNorth, 0.0, -6.0);
     s.pose.q_NB = Eigen::AngleAxisd(heading, Vector3::UnitZ()) * Eigen::AngleAxisd(roll, Vector3::UnitX());
     return s;
   }
 
   // Looks at the vehicle from a place one metre and a half away, in line with its height.
   static Camera camera(double north, double east, double up) {
-    return {Vector3(north, east, -6.0 - up), Vector3(0.0, 0.0, -6.0), 0.8};
+    return {Vector3(kNorth + north, east, -6.0 - up), Vector3(kNorth, 0.0, -6.0), 0.8};
   }
 };
 
@@ -150,7 +153,7 @@ TEST_F(SceneRendererTest, DrawsTheVehicleWhereTheProjectionSaysItIs) {
 TEST_F(SceneRendererTest, DoesNotRememberWhatItDrewBefore) {
   SceneRenderer renderer(params("x650"));
   Overlays overlays;
-  overlays.estimate = Pose{Vector3(0.3, 0.2, -6.1), Quaternion::Identity()};
+  overlays.estimate = Pose{Vector3(kNorth + 0.3, 0.2, -6.1), Quaternion::Identity()};
   overlays.title = "title";
   const Image first = renderer.render(sample(0.2, 1.0), camera(-2.0, 0.5, 0.7), overlays);
   RenderSample spinning = sample(-0.4, 3.0);
