@@ -42,8 +42,8 @@ double near_hills(double azimuth) {
          0.002 * std::sin(29.0 * azimuth + 3.0) + 0.001 * std::sin(83.0 * azimuth);
 }
 
-// Mean over a footprint of a line of `width` that repeats every metre `period`, when the footprint is too
-// wide to see single lines: 0 hides nothing, 1 is the mean itself.
+// Opacity left to a pattern of `period`, m, when a pixel covers `footprint`, m: it fades out before it turns
+// into noise.
 float fade(double footprint, double period) {
   return static_cast<float>(std::clamp(1.6 - 1.8 * footprint / period, 0.0, 1.0));
 }
