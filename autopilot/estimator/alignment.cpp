@@ -171,13 +171,7 @@ void Alignment::find_in_motion(const AidingParams& params, Time now) {
   start_.p_NB_N << p_N + start_.v_NB_N.head<2>() * age, (w.last_pressure - start_.origin_pressure) / weight;
 }
 
-bool Alignment::add(const SensorFrame& frame, double dt, const AidingParams& params) {
-  const Time now = frame.imu.stamp;
-  if (!started_) {
-    started_ = true;
-    first_stamp_ = now;
-    begin_window(now);
-  }
+void Alignment::collect(const SensorFrame& frame, double dt) {
   if (frame.status) armed_ = frame.status->armed;
   add_imu(frame.imu, dt);
   if (frame.mag) {
@@ -193,7 +187,16 @@ bool Alignment::add(const SensorFrame& frame, double dt, const AidingParams& par
     }
   }
   if (frame.gnss && is_usable(frame.gnss->fix)) add_fix(*frame.gnss);
+}
 
+bool Alignment::add(const SensorFrame& frame, double dt, const AidingParams& params) {
+  const Time now = frame.imu.stamp;
+  if (!started_) {
+    started_ = true;
+    first_stamp_ = now;
+    begin_window(now);
+  }
+  collect(frame, dt);
   const AlignmentParams& wanted = params.alignment;
   const double length = seconds(now - window_.begin);
   if (length < wanted.duration) return false;

@@ -92,6 +92,7 @@ class Alignment {
     double last_pressure = 0.0;
   };
 
+  void collect(const SensorFrame& frame, double dt);
   void add_imu(const ImuSample& imu, double dt);
   void add_fix(const GnssSample& fix);
   void begin_window(Time now);

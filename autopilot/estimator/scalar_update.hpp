@@ -19,6 +19,11 @@ struct ScalarUpdate {
   Vector PCt;                          ///< P C^T of the last row
   double variance = 0.0;               ///< S = C P C^T + R of the last row
 
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("variance", self.variance, "", "S of the last row, in the squared unit of its measurement");
+  }
+
   /// Fuses one row.
   /// @param innovation  y - h at the linearisation point
   /// @param PCt_row  P C^T of the row, with the present P

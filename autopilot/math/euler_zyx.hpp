@@ -25,6 +25,18 @@ struct EulerTrig {
 
   EulerTrig() = default;
   explicit EulerTrig(const Vector3& theta);
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("s_phi", self.s_phi, "1", "sine of roll");
+    visit("c_phi", self.c_phi, "1", "cosine of roll");
+    visit("s_theta", self.s_theta, "1", "sine of pitch");
+    visit("c_theta", self.c_theta, "1", "cosine of pitch");
+    visit("s_psi", self.s_psi, "1", "sine of heading");
+    visit("c_psi", self.c_psi, "1", "cosine of heading");
+    visit("secant", self.secant, "1", "1/cos(pitch), bounded");
+    visit("tangent", self.tangent, "1", "tan(pitch), bounded");
+  }
 };
 
 /// R(Theta): takes B components to N.

@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+
+#include "autopilot/estimator/alignment.hpp"
+#include "autopilot/estimator/delay_line.hpp"
+#include "autopilot/estimator/gate.hpp"
+#include "autopilot/estimator/scalar_update.hpp"
+#include "autopilot/math/euler_zyx.hpp"
+
+namespace ironbird::autopilot {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double kRoundOff = 1.0e-12;
+
+TEST(ScalarUpdateTest, EqualsTheJointUpdateInJosephForm) {
+  constexpr int kSize = 6;
+  using Matrix6 = Eigen::Matrix<double, kSize, kSize>;
+  using Vector6 = Eigen::Matrix<double, kSize, 1>;
+  Matrix6 root;
+  Eigen::Matrix<double, 3, kSize> C;
+  for (int i = 0; i < kSize; ++i) {
+    for (int j = 0; j < kSize; ++j) root(i, j) = std::sin(1.7 * i + 0.9 * j * j + 0.3);
+    for (int k = 0; k < 3; ++k) C(k, i) = std::cos(2.1 * i - 0.8 * k);
+  }
+  const Matrix6 P = root * root.transpose();
+  const Vector3 innovation(0.3, -0.2, 0.5);
+  const Vector3 R(0.4, 0.1, 0.7);
+
+  const Matrix3 S = C * P * C.transpose() + Matrix3(R.asDiagonal());
+  const Eigen::Matrix<double, kSize, 3> K = P * C.transpose() * S.inverse();
+  const Matrix6 left = Matrix6::Identity() - K * C;
+  const Matrix6 joint = left * P * left.transpose() + K * R.asDiagonal() * K.transpose();
+
+  Matrix6 sequential = P;
+  ScalarUpdate<kSize> update;
+  for (int row = 0; row < 3; ++row)
+    update.fuse_block<kSize>(sequential, innovation(row), C.row(row), 0, R(row));
+  EXPECT_LT((sequential - joint).norm(), 1.0e-10) << "P of order 10, condition of S of order 100";
+  EXPECT_LT((update.correction - Vector6(K * innovation)).norm(), 1.0e-10);
+  EXPECT_EQ((sequential - sequential.transpose()).cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(GateTest, AcceptsRejectsAndFinallyResets) {
+  Gate gate;
+  EXPECT_EQ(gate.judge(1.0, 9.0, 2.0, milliseconds(0)), Verdict::kAccept);
+  EXPECT_EQ(gate.judge(10.0, 9.0, 2.0, milliseconds(1000)), Verdict::kReject);
+  EXPECT_EQ(gate.judge(10.0, 9.0, 2.0, milliseconds(2900)), Verdict::kReject);
+  EXPECT_EQ(gate.judge(10.0, 9.0, 2.0, milliseconds(3000)), Verdict::kReset);
+  EXPECT_EQ(gate.judge(1.0, 9.0, 2.0, milliseconds(3100)), Verdict::kAccept);
+  EXPECT_EQ(gate.judge(1.0e9, 0.0, 2.0, milliseconds(3200)), Verdict::kAccept) << "threshold 0: no gate";
+}
+
+TEST(GateTest, BeginsToCountAnewAfterOneAgreement) {
+  Gate gate;
+  gate.judge(10.0, 9.0, 2.0, milliseconds(0));
+  gate.judge(1.0, 9.0, 2.0, milliseconds(1500));
+  EXPECT_EQ(gate.judge(10.0, 9.0, 2.0, milliseconds(2500)), Verdict::kReject);
+}
+
+TEST(GateTest, RejectsWhatIsNoNumber) {
+  Gate gate;
+  EXPECT_EQ(gate.judge(std::nan(""), 9.0, 2.0, milliseconds(0)), Verdict::kReject);
+}
+
+TEST(DelayLineTest, InterpolatesBetweenItsEntries) {
+  DelayLine line;
+  line.push(milliseconds(10), {1.0, 0.0, 0.0}, {0.0, 2.0, 0.0});
+  line.push(milliseconds(20), {2.0, 0.0, 0.0}, {0.0, 4.0, 0.0});
+  const auto past = line.at(milliseconds(15));
+  ASSERT_TRUE(past.has_value());
+  EXPECT_NEAR(past->p_N.x(), 1.5, kRoundOff);
+  EXPECT_NEAR(past->v_N.y(), 3.0, kRoundOff);
+  EXPECT_FALSE(line.at(milliseconds(9)).has_value());
+  EXPECT_EQ(line.at(milliseconds(30))->p_N.x(), 2.0);
+}
+
+TEST(DelayLineTest, AppliesLaterCorrectionsToThePastOnly) {
+  DelayLine line;
+  line.push(milliseconds(10), Vector3::Zero(), Vector3::Zero());
+  line.correct({5.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+  line.push(milliseconds(20), {5.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+  EXPECT_EQ(line.at(milliseconds(10))->p_N.x(), 5.0);
+  EXPECT_EQ(line.at(milliseconds(20))->p_N.x(), 5.0);
+}
+
+TEST(DelayLineTest, ForgetsTheOldest) {
+  DelayLine line;
+  for (int i = 0; i <= DelayLine::kCapacity; ++i)
+    line.push(milliseconds(4 * i), {1.0 * i, 0.0, 0.0}, Vector3::Zero());
+  EXPECT_FALSE(line.at(milliseconds(0)).has_value());
+  EXPECT_NEAR(line.at(milliseconds(4))->p_N.x(), 1.0, kRoundOff);
+}
+
+TEST(OutlierTest, IsTheMeanOfAnyNumberOfGoodValues) {
+  std::array<double, 512> values{};
+  values[0] = 90000.0;
+  EXPECT_EQ(mean_without_outliers(values, 1), 90000.0);
+  for (const int count : {2, 3, 7, 100, 101, 512}) {
+    for (int i = 0; i < count; ++i) values[i] = 90000.0 + (i % 2 == 0 ? 1.0 : -1.0);
+    const double expected = 90000.0 + (count % 2 == 0 ? 0.0 : 1.0 / count);
+    EXPECT_NEAR(mean_without_outliers(values, count), expected, 1.0e-9) << count;
+  }
+}
+
+TEST(OutlierTest, LeavesOutliersOut) {
+  std::array<double, 512> values{};
+  for (int i = 0; i < 50; ++i) values[i] = 90000.0 + 0.1 * i;
+  values[17] = 50000.0;
+  values[33] = 120000.0;
+  EXPECT_NEAR(mean_without_outliers(values, 50), 90002.45, 0.1);
+}
+
+struct AttitudeCase {
+  const char* name;
+  Vector3 theta;
+  Vector3 a_N;
+};
+
+class AttitudeFromVectorsTest : public ::testing::TestWithParam<AttitudeCase> {};
+
+TEST_P(AttitudeFromVectorsTest, FindsTheAttitudeThatMadeTheReadings) {
+  constexpr double kGravity = 9.81;
+  constexpr double kDeclination = 0.2;
+  const Matrix3 R_NB = rotation_NB(EulerTrig(GetParam().theta));
+  const Vector3 field_N(0.4 * std::cos(kDeclination), 0.4 * std::sin(kDeclination), 0.9);
+  const Vector3 f_B = R_NB.transpose() * (GetParam().a_N - kGravity * Vector3::UnitZ());
+  const Quaternion q_NB =
+      attitude_from_vectors(f_B, GetParam().a_N, R_NB.transpose() * field_N, kDeclination, kGravity);
+  EXPECT_LT((q_NB.toRotationMatrix() - R_NB).norm(), 1.0e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Attitudes, AttitudeFromVectorsTest,
+                         ::testing::Values(AttitudeCase{"Level", {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}},
+                                           AttitudeCase{"Tilted", {0.2, -0.3, 2.5}, {0.0, 0.0, 0.0}},
+                                           AttitudeCase{"South", {0.0, 0.1, 3.14159}, {0.0, 0.0, 0.0}},
+                                           AttitudeCase{"Accelerating", {0.3, 0.2, -1.0}, {2.0, -1.5, 0.5}},
+                                           AttitudeCase{"Inverted", {3.0, 0.1, 0.4}, {0.0, 0.0, 0.0}}),
+                         [](const auto& case_) { return std::string(case_.param.name); });
+
+}  // namespace
+}  // namespace ironbird::autopilot
