@@ -72,6 +72,9 @@ void Bench::perform(const EventConfig& event, Time now) {
   if (event.fault) return begin_fault(event, now);
   if (event.pilot) {
     judge_->event(now, "pilot", describe_event(event));
+    if (*event.pilot == PilotAction::kMoveThrottle) {
+      return fcu_->pilot().set_stick(hil_bridge::Stick::kThrottle, event.magnitude);
+    }
     return perform(*event.pilot);
   }
   if (event.request) return perform(*event.request, event, now);
@@ -121,6 +124,8 @@ void Bench::perform(PilotAction action) {
       return pilot.override_companion(true);
     case PilotAction::kHandOver:
       return pilot.override_companion(false);
+    case PilotAction::kMoveThrottle:
+      return;
     case PilotAction::kLoseRadio:
       return pilot.lose();
     case PilotAction::kFindRadio:
