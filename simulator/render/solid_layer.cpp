@@ -1,6 +1,5 @@
 #include "simulator/render/solid_layer.hpp"
 
-#include <GL/osmesa.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -317,10 +316,8 @@ const SolidPicture& SolidLayer::draw(const Projection& projection, PixelRect rec
       static_cast<std::size_t>(viewport.width) * static_cast<std::size_t>(viewport.height);
   picture_.rgba.resize(4 * count);
   picture_.window_depth.resize(count);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(0, 0, viewport.width, viewport.height, GL_RGBA, GL_UNSIGNED_BYTE, picture_.rgba.data());
-  glReadPixels(0, 0, viewport.width, viewport.height, GL_DEPTH_COMPONENT, GL_FLOAT,
-               picture_.window_depth.data());
+  engine.context.read_colours(viewport.width, viewport.height, picture_.rgba.data());
+  engine.context.read_depths(viewport.width, viewport.height, picture_.window_depth.data());
   return picture_;
 }
 
@@ -331,13 +328,12 @@ SolidLayer::RawGlyph SolidLayer::glyph(char character) {
   const int height = renderer.charHeightBig;
   const mjrRect viewport{0, 0, advance + 2 * kGlyphMargin, height + 2 * kGlyphMargin};
   mjr_rectangle(viewport, 0.0F, 0.0F, 0.0F, 1.0F);
-  glViewport(0, 0, viewport.width, viewport.height);
+  engine_->context.set_viewport(viewport.width, viewport.height);
   const char text[2] = {character, '\0'};
   mjr_text(mjFONT_BIG, text, &renderer, static_cast<float>(kGlyphMargin) / static_cast<float>(viewport.width),
            static_cast<float>(kGlyphMargin) / static_cast<float>(viewport.height), 1.0F, 1.0F, 1.0F);
   std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(viewport.width * viewport.height));
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(0, 0, viewport.width, viewport.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  engine_->context.read_colours(viewport.width, viewport.height, rgba.data());
   RawGlyph glyph{viewport.width, viewport.height, {}};
   for (int y = viewport.height - 1; y >= 0; --y) {
     for (int x = 0; x < viewport.width; ++x) {
