@@ -27,7 +27,8 @@ std::string head(const std::string& option, const std::string& flag) {
 }
 
 constexpr const char* kBody = R"(<body><freejoint/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)";
-constexpr const char* kTail = "</body></worldbody></mujoco>";
+constexpr const char* kBodyEnd = "</body></worldbody>";
+constexpr const char* kEnd = "</mujoco>";
 
 std::ostringstream exact_text() {
   std::ostringstream text;
@@ -40,30 +41,54 @@ void write(std::ostream& text, const char* attribute, const Vector3& value) {
   text << ' ' << attribute << "=\"" << value.x() << ' ' << value.y() << ' ' << value.z() << '"';
 }
 
-void write_obstacles(std::ostream& text, const FieldParams& field) {
-  if (field.ground) text << R"(<geom type="plane" size="0 0 1"/>)";
+/// The beginning of a shape. @param name  kind of thing and number
+void begin_geom(std::ostream& text, const char* kind, std::size_t number, const char* type) {
+  text << "<geom name=\"" << kind << number << "\" type=\"" << type << '"';
+}
+
+/// @return their number
+std::size_t write_obstacles(std::ostream& text, const FieldParams& field) {
+  std::size_t count = 0;
+  if (field.ground) {
+    begin_geom(text, "obstacle", count++, "plane");
+    text << R"( size="0 0 1"/>)";
+  }
   for (const BoxObstacle& box : field.boxes) {
-    text << R"(<geom type="box")";
+    begin_geom(text, "obstacle", count++, "box");
     write(text, "pos", ned_nwu(box.position));
     write(text, "size", box.half_size);
     text << " euler=\"0 0 " << -box.heading << "\"/>";
   }
+  return count;
 }
 
-/// The vehicle's friction counts, whatever it touches.
-void write_friction(std::ostream& text, const ContactParams& vehicle) {
-  text << R"( priority="1" friction=")" << vehicle.friction << R"( 0.005 0.0001"/>)";
-}
-
-void write_vehicle(std::ostream& text, const ContactParams& vehicle) {
+/// @return the number of its shapes
+std::size_t write_vehicle(std::ostream& text, const ContactParams& vehicle) {
+  std::size_t count = 0;
   for (const Vector3& foot : vehicle.feet) {
-    text << R"(<geom type="sphere" size=")" << vehicle.foot_radius << '"';
+    begin_geom(text, "part", count++, "sphere");
+    text << " size=\"" << vehicle.foot_radius << '"';
     write(text, "pos", ned_nwu(foot));
-    write_friction(text, vehicle);
+    text << "/>";
   }
-  text << R"(<geom type="box")";
+  begin_geom(text, "part", count++, "box");
   write(text, "size", vehicle.body_half_size);
-  write_friction(text, vehicle);
+  text << "/>";
+  return count;
+}
+
+/// What can touch what, all of it, so that the engine need not sort the shapes in every stage. The impedance
+/// is the engine's usual one, but grows linearly with the depth: its usual curve takes two powers for each
+/// contact.
+void write_pairs(std::ostream& text, std::size_t parts, std::size_t obstacles, double friction) {
+  text << "<contact>";
+  for (std::size_t part = 0; part < parts; ++part) {
+    for (std::size_t obstacle = 0; obstacle < obstacles; ++obstacle) {
+      text << "<pair geom1=\"obstacle" << obstacle << "\" geom2=\"part" << part << "\" friction=\""
+           << friction << ' ' << friction << R"( 0.005 0.0001 0.0001" solimp="0.9 0.95 0.001 0.5 1"/>)";
+    }
+  }
+  text << "</contact>";
 }
 
 struct Principal {
@@ -104,17 +129,19 @@ mjModel* load(const std::string& mjcf) {
 }  // namespace
 
 std::string flight_model() {
-  return head("", R"(constraint="disable" contact="disable")") + kBody + kTail;
+  return head("", R"(constraint="disable" contact="disable")") + kBody + kBodyEnd + kEnd;
 }
 
 std::string contact_model(const ContactParams& vehicle, const FieldParams& field) {
   std::ostringstream text = exact_text();
   // Soft contacts creep under a steady side force; the extra iterations hold them.
-  text << head(R"(cone="elliptic" noslip_iterations="5")", "");
-  write_obstacles(text, field);
+  text << head(R"(cone="elliptic" noslip_iterations="5" collision="predefined")", "");
+  const std::size_t obstacles = write_obstacles(text, field);
   text << kBody;
-  write_vehicle(text, vehicle);
-  text << kTail;
+  const std::size_t parts = write_vehicle(text, vehicle);
+  text << kBodyEnd;
+  write_pairs(text, parts, obstacles, vehicle.friction);
+  text << kEnd;
   return text.str();
 }
 

@@ -13,6 +13,7 @@ namespace ironbird::simulator {
 namespace {
 
 constexpr double kContactStep = 0.5e-3;  // s
+constexpr double kRestStep = 2.5e-3;     // s
 constexpr double kFlightStep = 5e-3;     // s
 
 class MujocoPlant final : public Plant {
@@ -60,7 +61,10 @@ class MujocoPlant final : public Plant {
   const RotorSpeeds& rotors() const override { return rotors_; }
   bool in_contact() const override { return in_contact_; }
   const char* failure() const override { return failure_; }
-  double contact_step() const override { return proximity_.near() ? kContactStep : kFlightStep; }
+  double contact_step() const override {
+    if (!proximity_.near()) return kFlightStep;
+    return in_contact_ && nearly_at_rest(state_) ? kRestStep : kContactStep;
+  }
 
   /// One stage of the engine's integrator: called by the engine when it has set the stage's state.
   void evaluate_stage() {

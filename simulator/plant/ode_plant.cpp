@@ -10,6 +10,7 @@ namespace ironbird::simulator {
 namespace {
 
 constexpr double kContactStep = 0.5e-3;  // s
+constexpr double kRestStep = 2.5e-3;     // s
 constexpr double kFlightStep = 2.5e-3;   // s
 
 /// The rotation by a rotation vector, rad.
@@ -66,7 +67,10 @@ class OdePlant final : public Plant {
   const RotorSpeeds& rotors() const override { return rotors_; }
   bool in_contact() const override { return in_contact_; }
   const char* failure() const override { return failure_; }
-  double contact_step() const override { return proximity_.near() ? kContactStep : kFlightStep; }
+  double contact_step() const override {
+    if (!proximity_.near()) return kFlightStep;
+    return in_contact_ && nearly_at_rest(state_) ? kRestStep : kContactStep;
+  }
 
  private:
   Vector3 angular_acceleration(const Vector3& M_B, const Vector3& w_B) const {

@@ -22,7 +22,16 @@ double distance(const BoxObstacle& box, const Vector3& p_N) {
   return outside.norm();
 }
 
+// In 2.5 ms at these speeds a foot moves by less than the depth to which soft ground gives way under the
+// weight.
+constexpr double kSlow = 0.02;      // m/s
+constexpr double kSlowTurn = 0.05;  // rad/s
+
 }  // namespace
+
+bool nearly_at_rest(const RigidBodyState& state) {
+  return state.v_NB_N.squaredNorm() < kSlow * kSlow && state.w_NB_B.squaredNorm() < kSlowTurn * kSlowTurn;
+}
 
 Proximity::Proximity(const ContactParams& vehicle, const FieldParams& field) : field_(field) {
   reach_ = vehicle.body_half_size.norm();

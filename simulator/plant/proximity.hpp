@@ -1,9 +1,13 @@
 #pragma once
 
 #include "simulator/plant/field.hpp"
+#include "simulator/types/rigid_body_state.hpp"
 #include "simulator/vehicle/vehicle_params.hpp"
 
 namespace ironbird::simulator {
+
+/// Moves so slowly that contact, which has a memory of some 20 ms, is well served by steps of 2.5 ms.
+bool nearly_at_rest(const RigidBodyState& state);
 
 /// Tells an engine when contact can be left out because nothing is within reach.
 ///

@@ -155,5 +155,30 @@ TYPED_TEST(ContactTest, AsksForShortStepsNearTheGround) {
   EXPECT_LE(this->plant_->contact_step(), 0.5e-3);
 }
 
+TYPED_TEST(ContactTest, RestsAsQuietlyInLongSteps) {
+  this->begin(this->at_height(kRestHeight));
+  this->run(3.0);
+  const double height = -this->plant_->state().p_NB_N.z();
+  constexpr double kLongStep = 2.5e-3;
+  constexpr double kDrift = 1e-9;  // m
+  constexpr double kNoise = 1e-9;  // m/s^2
+  for (int i = 0; i < 2000; ++i) {
+    ASSERT_GE(this->plant_->contact_step(), kLongStep);
+    const Vector3 before = this->plant_->state().v_NB_N;
+    this->plant_->step(kLongStep, this->forces_);
+    ASSERT_LT((this->plant_->state().v_NB_N - before).norm() / kLongStep, kNoise);
+  }
+  EXPECT_NEAR(-this->plant_->state().p_NB_N.z(), height, kDrift);
+}
+
+TYPED_TEST(ContactTest, AsksForShortStepsAgainWhenItLeavesTheGround) {
+  this->begin(this->at_height(kRestHeight));
+  this->run(1.0);
+  ASSERT_GE(this->plant_->contact_step(), 2.5e-3);
+  this->forces_.F_N.z() = -1.2 * 3.5 * kGravity;
+  this->run(0.1);
+  EXPECT_LE(this->plant_->contact_step(), 0.5e-3);
+}
+
 }  // namespace
 }  // namespace ironbird::simulator
