@@ -155,7 +155,7 @@ void World::copy_state_to_truth() {
   truth_.v_NB_N = state.v_NB_N;
   truth_.w_NB_B = state.w_NB_B;
   truth_.wind_N = environment_.wind_N();
-  truth_.air_density = environment_.air_density(-state.p_NB_N.z());
+  truth_.air_density = vehicle_.air_density(-state.p_NB_N.z());
   for (int rotor = 0; rotor < kMaxRotors; ++rotor) {
     truth_.rotor_speed[static_cast<std::size_t>(rotor)] = plant_->rotors()[rotor];
   }

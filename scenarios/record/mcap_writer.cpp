@@ -19,6 +19,10 @@ constexpr std::size_t kChunkHeadFixed = 8 + 8 + 8 + 4 + 4 + 8;
 /// Channel, sequence, two times.
 constexpr std::size_t kMessageHead = 2 + 4 + 8 + 8;
 
+/// Room made beforehand, so that a flight of the usual length takes no memory; untouched room costs none.
+constexpr std::size_t kExpectedChunks = 4096;
+constexpr std::size_t kExpectedTopics = 16;
+
 /// What ROS tools expect to find with a channel: reliable, keeps the last ten, nothing else special.
 const McapMetadata kChannelMetadata{
     {"offered_qos_profiles",
@@ -48,6 +52,8 @@ McapWriter::McapWriter(const std::filesystem::path& path, const McapOptions& opt
   put_header(start, "ros2", "ironbird");
   write_out(start.bytes());
   records_.reserve_more(2 * std::size_t{options.chunk_size} + head_size_);
+  chunks_.reserve(kExpectedChunks);
+  index_offsets_.reserve(kExpectedChunks * kExpectedTopics);
   records_.set_size(head_size_);
 }
 
@@ -177,10 +183,11 @@ std::size_t McapWriter::write_message_indexes(ChunkEntry& entry) {
     Channel& channel = channels_[id];
     if (channel.index.empty()) continue;
     const auto number = static_cast<std::uint16_t>(id);
-    entry.indexes.emplace_back(number, entry.offset + entry.length + indexes_.size());
+    index_offsets_.emplace_back(number, entry.offset + entry.length + indexes_.size());
     put_message_index(indexes_, number, channel.index);
     channel.index.clear();
   }
+  entry.index_count = index_offsets_.size() - entry.first_index;
   return indexes_.size();
 }
 
@@ -193,8 +200,16 @@ void McapWriter::flush_chunk(std::size_t end) {
   const std::size_t stored = chunk_end - head_size_;
   const std::uint32_t records_crc = put_chunk_head(chunk, size, stored);
 
-  ChunkEntry entry{chunk_first_time_, chunk_last_time_, file_.size(), chunk_end, {}, 0, stored, size,
-                   options_.compress};
+  ChunkEntry entry{.start_time = chunk_first_time_,
+                   .end_time = chunk_last_time_,
+                   .offset = file_.size(),
+                   .length = chunk_end,
+                   .first_index = index_offsets_.size(),
+                   .index_count = 0,
+                   .index_length = 0,
+                   .compressed_size = stored,
+                   .uncompressed_size = size,
+                   .compressed = options_.compress};
   entry.index_length = write_message_indexes(entry);
   chunk_first_time_ = chunk_last_time_ = chunk_messages_ = 0;
   records_.set_size(head_size_);
@@ -205,7 +220,7 @@ void McapWriter::flush_chunk(std::size_t end) {
                                 : crc32_of_both(data_crc_, records_crc, stored);
   data_crc_ = crc32(indexes_.bytes(), data_crc_);
   file_.write({chunk.data(), chunk_end}, indexes_.bytes());
-  chunks_.push_back(std::move(entry));
+  chunks_.push_back(entry);
 }
 
 void McapWriter::flush_journal() {
@@ -302,14 +317,15 @@ void McapWriter::put_statistics(ByteBuffer& out) const {
   }
 }
 
-void McapWriter::put_chunk_index(ByteBuffer& out, const ChunkEntry& chunk) {
+void McapWriter::put_chunk_index(ByteBuffer& out, const ChunkEntry& chunk) const {
   const McapRecord record(out, McapOpcode::kChunkIndex);
   out.put(chunk.start_time);
   out.put(chunk.end_time);
   out.put(chunk.offset);
   out.put(chunk.length);
-  out.put(static_cast<std::uint32_t>(chunk.indexes.size() * (2 + 8)));
-  for (const auto& [channel, offset] : chunk.indexes) {
+  out.put(static_cast<std::uint32_t>(chunk.index_count * (2 + 8)));
+  for (std::size_t i = 0; i < chunk.index_count; ++i) {
+    const auto& [channel, offset] = index_offsets_[chunk.first_index + i];
     out.put(channel);
     out.put(offset);
   }

@@ -86,7 +86,8 @@ class McapWriter {
   };
   struct ChunkEntry {
     std::uint64_t start_time, end_time, offset, length;
-    std::vector<std::pair<std::uint16_t, std::uint64_t>> indexes;
+    /// Where its indexes stand in index_offsets_.
+    std::size_t first_index, index_count;
     std::uint64_t index_length, compressed_size, uncompressed_size;
     bool compressed;
   };
@@ -107,7 +108,7 @@ class McapWriter {
   void flush_journal();
   void write_summary();
   void put_statistics(ByteBuffer& out) const;
-  static void put_chunk_index(ByteBuffer& out, const ChunkEntry& chunk);
+  void put_chunk_index(ByteBuffer& out, const ChunkEntry& chunk) const;
 
   OutputFile file_;
   McapOptions options_;
@@ -122,6 +123,8 @@ class McapWriter {
   std::vector<Schema> schemas_;
   std::vector<Channel> channels_;
   std::vector<ChunkEntry> chunks_;
+  /// Of every chunk's indexes: channel and place in the file.
+  std::vector<std::pair<std::uint16_t, std::uint64_t>> index_offsets_;
   std::vector<MetadataEntry> metadata_;
   std::uint32_t data_crc_ = 0;
 

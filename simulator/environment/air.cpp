@@ -32,16 +32,19 @@ double Air::pressure(double altitude_above_home) const {
 }
 
 DensityProfile Air::density_profile(double altitude_above_home) const {
-  if (params_.constant_density) return {params_.density, 0.0};
+  if (params_.constant_density) return {altitude_above_home, params_.density, 0.0, 0.0};
   const double T = temperature(altitude_above_home);
   const double ratio = T / params_.sea_level_temperature;
   const double density = params_.sea_level_pressure * std::pow(ratio, kExponent) / (kGasConstant * T);
   const double altitude = home_altitude_ + altitude_above_home;
-  if (geopotential(altitude) >= kTropopause) return {density, 0.0};
+  if (geopotential(altitude) >= kTropopause) return {altitude_above_home, density, 0.0, 0.0};
   // The density is proportional to T^(n - 1), and T falls linearly with the geopotential height.
   const double shrink = kEarthRadius / (kEarthRadius + altitude);
-  const double dT_dh = -kLapseRate * shrink * shrink;
-  return {density, density * (kExponent - 1.0) * dT_dh / T};
+  const double slope = -kLapseRate * shrink * shrink / T;    // dT/dh / T
+  const double bend = -2.0 * slope * shrink / kEarthRadius;  // d2T/dh2 / T
+  const double power = kExponent - 1.0;
+  return {altitude_above_home, density, density * power * slope,
+          density * power * ((power - 1.0) * slope * slope + bend)};
 }
 
 }  // namespace ironbird::simulator

@@ -21,10 +21,18 @@ struct AirParams {
   }
 };
 
-/// Density at one height and how it changes with height.
+/// Density around one height, by its first three terms. Ten metres away the fourth is 1e-10 of the density,
+/// one metre away 1e-13.
 struct DensityProfile {
-  double density = 0.0;   ///< kg/m^3
-  double gradient = 0.0;  ///< kg/m^4
+  double height = 0.0;     ///< m, where the terms are taken
+  double density = 0.0;    ///< kg/m^3
+  double gradient = 0.0;   ///< kg/m^4
+  double curvature = 0.0;  ///< kg/m^5, second derivative
+
+  double at(double other_height) const {
+    const double d = other_height - height;
+    return density + d * (gradient + 0.5 * d * curvature);
+  }
 };
 
 /// The troposphere of the U.S. Standard Atmosphere 1976, shifted to the day's sea-level pressure and

@@ -6,7 +6,8 @@
 namespace ironbird::simulator {
 namespace {
 
-constexpr double kStillAir = 1e-3;  // m/s, below it there is no drag
+constexpr double kStillAir = 1e-3;     // m/s, below it there is no drag
+constexpr double kDensityReach = 1.0;  // m, where the density's expansion is as good as the formula
 
 double share(double value) {
   return value > 0.0 ? std::min(value, 1.0) : 0.0;  // also for what is not a number
@@ -59,8 +60,13 @@ Forces Vehicle::evaluate(const RigidBodyState& state, const RotorSpeeds& rotors,
 }
 
 void Vehicle::remember_density(double height) {
-  density_height_ = height;
-  density_ = environment_->air_density_profile(height);
+  if (std::abs(height - density_.height) > kDensityReach)
+    density_ = environment_->air_density_profile(height);
+}
+
+double Vehicle::air_density(double height) const {
+  const bool in_reach = std::abs(height - density_.height) <= kDensityReach;
+  return in_reach ? density_.at(height) : environment_->air_density(height);
 }
 
 Vehicle::Flow Vehicle::flow_at(const RigidBodyState& state) const {
@@ -68,7 +74,7 @@ Vehicle::Flow Vehicle::flow_at(const RigidBodyState& state) const {
   const Matrix3 R_NB = state.q_NB.toRotationMatrix();
   Flow flow;
   flow.V_a_B = R_NB.transpose() * (state.v_NB_N - environment_->wind_N());
-  flow.density = density_.density + density_.gradient * (height - density_height_);
+  flow.density = density_.at(height);
   flow.inflow = rotor_.inflow(-flow.V_a_B.z());
   flow.gain = thrust_gain(height);
   return flow;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "simulator/environment/environment.hpp"
 #include "simulator/plant/plant.hpp"
@@ -42,6 +43,9 @@ class Vehicle : public ForceModel {
 
   /// With the payload. After `set_payload` the plant is to be configured again.
   const MassProperties& mass_properties() const { return mass_properties_; }
+
+  /// Density of the air, kg/m^3, at a height above the local origin, m.
+  double air_density(double height) const;
 
   double battery_voltage() const { return voltage_; }                    ///< V, at the terminals
   double battery_current() const { return current_; }                    ///< A, >= 0
@@ -102,8 +106,8 @@ class Vehicle : public ForceModel {
   double drag_area_ = 0.0;  // CD A/2
   double voltage_ = 0.0;
   double current_ = 0.0;
-  DensityProfile density_;  // at the start of the step
-  double density_height_ = 0.0;
+  // Taken again when the vehicle has climbed or sunk by more than kDensityReach.
+  DensityProfile density_{.height = std::numeric_limits<double>::infinity()};
 };
 
 }  // namespace ironbird::simulator

@@ -45,6 +45,17 @@ TEST(AirTest, HasTheGradientOfItsDensity) {
   }
 }
 
+TEST(AirTest, ExpandsTheDensityAroundAHeight) {
+  const Air air(AirParams{}, 1387.0);
+  constexpr double kFourthTerm = 2e-13;  // relative: (1 m / 8400 m)^3 / 6, rounding
+  for (const double height : {-50.0, 0.0, 120.0, 3000.0}) {
+    const DensityProfile profile = air.density_profile(height);
+    for (const double away : {-1.0, 0.3, 1.0}) {
+      EXPECT_NEAR(profile.at(height + away) / air.density(height + away), 1.0, kFourthTerm);
+    }
+  }
+}
+
 TEST(AirTest, IsInHydrostaticBalance) {
   const Air air(AirParams{}, 0.0);
   constexpr double kHalf = 1.0;  // m
