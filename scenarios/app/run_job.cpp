@@ -10,6 +10,7 @@
 #include "scenarios/bench/bench.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
 #include "scenarios/requirements/verdict_text.hpp"
+#include "simulator/render/solid_layer.hpp"
 
 namespace ironbird::scenarios {
 
@@ -49,7 +50,16 @@ void tell(const Verdict& verdict, const Terminal& terminal) {
   std::fputs(text.c_str(), stderr);
 }
 
+/// Finds out before the flight, not after it, that it cannot be drawn.
+void check_scene(const RunJob& job) {
+  const std::filesystem::path& root = job.loaded->project_root;
+  const Scenario& scenario = job.loaded->scenario;
+  simulator::check_scene((root / scenario.vehicle_folder / "scene.xml").string(),
+                         (root / scenario.field).string());
+}
+
 RunResult carry_out(const RunJob& job, const autopilot::Modules& modules, const Terminal& terminal) {
+  if (job.products.video || job.products.snapshots) check_scene(job);
   make_folder(job.folder);
   bool interrupted = false;
   RunResult result{job.folder, fly(job, modules, terminal, interrupted), 0, {}};
