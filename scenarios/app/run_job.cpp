@@ -75,6 +75,8 @@ RunResult run_job(const RunJob& job, const autopilot::Modules& modules, const Te
   try {
     return carry_out(job, modules, terminal);
   } catch (const std::invalid_argument& error) {
+    std::error_code not_empty;
+    std::filesystem::remove(job.folder, not_empty);  // a folder without a result helps nobody
     return {job.folder, std::nullopt, kExitUsage, job.loaded->located(error).what()};
   } catch (const std::runtime_error& error) {
     return {job.folder, std::nullopt, kExitUsage, error.what()};

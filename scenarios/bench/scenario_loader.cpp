@@ -22,6 +22,11 @@ std::filesystem::path readable(const std::filesystem::path& path) {
 }
 
 std::string vehicle_folder(const toml::table& scenario, const Overrides& overrides) {
+  const toml::node* node = scenario.get("vehicle");
+  if (node != nullptr && !node->is_string() && !node->is_table()) {
+    throw ConfigError(location(node->source()) +
+                      ": vehicle: must be the name of a folder, such as \"models/x650\"");
+  }
   std::string folder = scenario["vehicle"].value_or(Scenario{}.vehicle_folder);
   for (const auto& [path, text] : overrides.settings) {
     if (path == "vehicle") folder = text;
@@ -129,7 +134,8 @@ LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides&
   toml::table scenario = load_toml(file, loaded.project_root);
   const std::string folder = vehicle_folder(scenario, overrides);
   toml::table root = load_vehicle(loaded.project_root, folder, scenario);
-  scenario.erase("vehicle");
+  // `vehicle` may be the folder's name, or a table of values that win over those of the default folder.
+  if (!scenario["vehicle"].is_table()) scenario.erase("vehicle");
   merge_toml(root, std::move(scenario));
   for (const auto& [path, text] : overrides.settings) {
     if (path != "vehicle") set_value(root, path, text);

@@ -59,10 +59,22 @@ class Rules {
       if (!waypoints[i].p_N.allFinite()) report(path + ".p_N: every number must be finite");
       if (!std::isfinite(waypoints[i].heading)) report(path + ".heading: must be finite");
     }
+    if (waypoints.empty() && loaded_.scenario.pilot.automatic && !events_fly()) {
+      report(
+          "waypoint: there is none, and no event flies anything; add a [[waypoint]], or an [[event]] with "
+          "add_waypoint, setpoint, request or pilot");
+    }
     if (loaded_.scenario.cyclic && waypoints.size() < 2) {
       report("cyclic = true: a round needs at least two waypoints, found " +
              std::to_string(waypoints.size()));
     }
+  }
+
+  bool events_fly() const {
+    const auto& events = loaded_.scenario.events;
+    return std::any_of(events.begin(), events.end(), [](const EventConfig& event) {
+      return event.add_waypoint || event.setpoint || event.request || event.pilot;
+    });
   }
 
   void check_events() {
