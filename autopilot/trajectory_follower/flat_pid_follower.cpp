@@ -72,9 +72,11 @@ Vector3 FlatPidFollower::acceleration(const TrajectoryPoint& point, const StateE
   const Vector3 rate_N = params().use_velocity_reference ? Vector3(v_NB_N - point.v_N) : v_NB_N;
   Vector3 error_N = point.p_N - estimate.p_NB_N;
   error_N.z() = std::min(error_N.z(), params().down_command_window);
-  return point.a_N + Vector3(north_.run(error_N.x(), rate_N.x(), dt, integrate),
-                             east_.run(error_N.y(), rate_N.y(), dt, integrate),
-                             down_.run(error_N.z(), rate_N.z(), dt, integrate));
+  const Vector3 against_drag_N = params().drag * Vector3(point.v_N.x(), point.v_N.y(), 0.0);
+  return point.a_N + against_drag_N +
+         Vector3(north_.run(error_N.x(), rate_N.x(), dt, integrate),
+                 east_.run(error_N.y(), rate_N.y(), dt, integrate),
+                 down_.run(error_N.z(), rate_N.z(), dt, integrate));
 }
 
 double FlatPidFollower::heading_rate(const TrajectoryPoint& point, const StateEstimate& estimate, double dt,

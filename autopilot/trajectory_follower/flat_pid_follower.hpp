@@ -15,6 +15,7 @@ struct FlatPidFollowerParams {
   PidGains east{3.43, 0.014, 2.23};
   PidGains down{12.1, 0.024, 9.16};
   PidGains heading{3.3, 0.0, 0.25};
+  double drag = 0.0;
   bool use_velocity_reference = true;
   double down_command_window = 3.0;
   double min_lift = 3.924;
@@ -33,6 +34,8 @@ struct FlatPidFollowerParams {
     visit("east", self.east, "", "position east to acceleration");
     visit("down", self.down, "", "position down to acceleration");
     visit("heading", self.heading, "", "heading to heading rate");
+    visit("drag", self.drag, "1/s",
+          "deceleration by the air per horizontal speed of the trajectory, made up for", 0.0, 10.0);
     visit("use_velocity_reference", self.use_velocity_reference, "1",
           "kd acts on the velocity error; false: on the velocity");
     visit("down_command_window", self.down_command_window, "m",
@@ -46,7 +49,8 @@ struct FlatPidFollowerParams {
 };
 
 /// PID on the position in N with velocity and acceleration of the trajectory fed forward, turned into
-/// attitude and thrust by differential flatness. ROScopter paper, trajectory follower.
+/// attitude and thrust by differential flatness. ROScopter paper, trajectory follower. With `drag` the
+/// deceleration that the trajectory's speed causes in still air is fed forward as well.
 ///
 /// Limits limit: lift, tilt, then the thrust window, which gives up horizontal force before vertical. It does
 /// not feed jerk forward.

@@ -1,6 +1,16 @@
 #include "hil_bridge/virtual_fcu/firmware.hpp"
 
+#include <cmath>
+
 namespace ironbird::hil_bridge::virtual_fcu {
+
+namespace {
+
+bool is_finite(const Triple& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
 
 void Firmware::pass(Board& board) {
   telemetry_.begin_pass(board);
@@ -29,18 +39,21 @@ void Firmware::pass(Board& board) {
 void Firmware::read_sensors(Board& board) {
   if (board.imu) {
     const ImuInput rotated = corrections_.rotated(*board.imu);
-    if (calibrating_imu()) calibrate_imu(rotated);
+    const bool sound = is_finite(rotated.acceleration) && is_finite(rotated.angular_velocity);
+    if (sound && calibrating_imu()) calibrate_imu(rotated);
     imu_before_us_ = imu_.stamp_us;
     imu_ = corrections_.corrected(rotated);
+    if (sound) believed_imu_ = imu_;
+    believed_imu_.stamp_us = imu_.stamp_us;
   }
-  if (board.baro) {
+  if (board.baro && std::isfinite(board.baro->pressure)) {
     density_ = density_of(board.baro->pressure);
     if (baro_calibration_.running()) calibrate_pressure(baro_calibration_, board.baro->pressure);
   }
   if (board.differential_pressure && airspeed_calibration_.running()) {
     calibrate_pressure(airspeed_calibration_, board.differential_pressure->pressure);
   }
-  if (board.battery) battery_.add(*board.battery);
+  if (board.battery && std::isfinite(board.battery->voltage)) battery_.add(*board.battery);
 }
 
 void Firmware::control(Board& board) {
@@ -54,7 +67,7 @@ void Firmware::control(Board& board) {
   }
   set_error(kTimeGoingBackwards, false);
   const float dt = static_cast<float>(imu_.stamp_us - imu_before_us_) * 1e-6F;
-  filter_.step(imu_, dt);
+  filter_.step(believed_imu_, dt);
   set_error(kUnhealthyEstimator, filter_.unhealthy());
   mixer_inputs_ = controller_.run(mux_.combined(), filter_.attitude(), dt, arming_.armed());
   mixer_.mix(mixer_inputs_,

@@ -128,7 +128,8 @@ class Firmware final : private ParameterStore::Listener {
   std::uint64_t now_us_ = 0;
   std::int16_t sensor_errors_ = 0;
   std::int16_t loop_time_us_ = 0;
-  ImuInput imu_;
+  ImuInput imu_;           // what goes out on the link
+  ImuInput believed_imu_;  // the same, or the last one that was a number
   std::uint64_t imu_before_us_ = 0;
   bool imu_seen_ = false;
   float density_ = kSeaLevelDensity;

@@ -99,7 +99,8 @@ Verb run_verb() {
   return {"run", "fly scenarios and judge them", [](CLI::App& app) {
             auto arguments = std::make_shared<RunArguments>();
             app.add_option("scenarios", arguments->files, "scenario files")->required();
-            app.add_option("--set", arguments->settings, "path=value, changes the scenario; may be repeated")
+            app.add_option("--set", arguments->settings, "changes the scenario; may be repeated")
+                ->allow_extra_args(false)
                 ->take_all()
                 ->type_name("PATH=VALUE");
             app.add_option("--seed", arguments->seeds, "seed of the run, or first:last for several runs");

@@ -129,6 +129,17 @@ void Bench::wire_record() {
   recorder_->add("/fcu/attitude", telemetry.attitude, slow);
   recorder_->add("/fcu/battery", telemetry.battery, slow);
   recorder_->add("/fcu/rc", telemetry.rc, slow);
+  wire_probes();
+}
+
+void Bench::wire_probes() {
+  probes_ = std::make_unique<ProbeRecorder>(*recorder_, from_seconds(scenario_.record.signal_period));
+  const autopilot::AutopilotConfig& kinds = loaded_.autopilot;
+  probes_->watch("estimator", kinds.estimator.kind, autopilot_->estimator());
+  probes_->watch("path_planner", kinds.path_planner.kind, autopilot_->path_planner());
+  probes_->watch("path_manager", kinds.path_manager.kind, autopilot_->path_manager());
+  probes_->watch("trajectory_follower", kinds.trajectory_follower.kind, autopilot_->trajectory_follower());
+  probes_->watch("controller", kinds.controller.kind, autopilot_->controller());
 }
 
 void Bench::wire_script() {
@@ -177,6 +188,7 @@ Bench::Time Bench::tick() {
   judge_->observe(now);
   if (published_events_ != judge_->events().size()) publish_events(now);
   if (recorder_ && lockstep_->stepped()) {
+    probes_->observe(now);
     recorder_->observe(now);
     if (autopilot_->signals().route.revision != recorded_route_) record_route(now);
   }

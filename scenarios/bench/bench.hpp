@@ -13,6 +13,7 @@
 #include "hil_bridge/executive/lockstep.hpp"
 #include "hil_bridge/virtual_fcu/virtual_fcu.hpp"
 #include "scenarios/bench/ground_watch.hpp"
+#include "scenarios/bench/probe_recorder.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/bench/script.hpp"
 #include "scenarios/record/recorder.hpp"
@@ -70,6 +71,7 @@ class Bench {
 
   void wire_autopilot(const autopilot::Modules& modules);
   void wire_record();
+  void wire_probes();
   void wire_script();
   void schedule(const std::string& after, double delay, Deed deed);
   void do_what_is_due(Time now);
@@ -79,7 +81,9 @@ class Bench {
   void perform(PilotAction action);
   void perform(OperatorWish wish, const EventConfig& event, Time now);
   void swap_module(const EventConfig& event, Time now);
-  void ask(const autopilot::Request& request, const std::string& what, Time now);
+  /// @return whether the autopilot accepted it
+  bool ask(const autopilot::Request& request, const std::string& what, Time now);
+  const autopilot::Module& module_in(const std::string& slot) const;
   void watch(Time now);
   void publish_events(Time now);
   void record_route(Time now);
@@ -93,6 +97,7 @@ class Bench {
   std::unique_ptr<autopilot::Autopilot> autopilot_;
   std::unique_ptr<hil_bridge::Lockstep> lockstep_;
   std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<ProbeRecorder> probes_;
   SignalTable signals_;
   std::unique_ptr<Judge> judge_;
   GroundWatch ground_;

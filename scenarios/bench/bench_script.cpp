@@ -54,7 +54,8 @@ void Bench::perform(const Deed& deed, Time now) {
     case Deed::Kind::kHandOver:
       return perform(PilotAction::kHandOver);
     case Deed::Kind::kTakeOff:
-      return ask(autopilot::TakeOff{}, "take_off", now);
+      ask(autopilot::TakeOff{}, "take_off", now);
+      return;
     case Deed::Kind::kDisarm:
       // A pilot whose vehicle only bounced leaves the switch alone.
       if (world_->truth().in_contact) perform(PilotAction::kDisarm);
@@ -71,22 +72,27 @@ void Bench::perform(const EventConfig& event, Time now) {
   if (event.fault) return begin_fault(event, now);
   if (event.pilot) {
     judge_->event(now, "pilot", describe_event(event));
+    if (*event.pilot == PilotAction::kMoveThrottle) {
+      return fcu_->pilot().set_stick(hil_bridge::Stick::kThrottle, event.magnitude);
+    }
     return perform(*event.pilot);
   }
   if (event.request) return perform(*event.request, event, now);
   if (event.setpoint) {
-    return ask(autopilot::OverrideSetpoint{only_setpoint(*event.setpoint)}, describe_event(event), now);
+    ask(autopilot::OverrideSetpoint{only_setpoint(*event.setpoint)}, describe_event(event), now);
+    return;
   }
   if (event.add_waypoint) {
     const std::optional<std::uint32_t> at =
         event.index > 0 ? std::optional<std::uint32_t>(static_cast<std::uint32_t>(event.index))
                         : std::nullopt;
-    return ask(autopilot::RouteRequest(autopilot::AddWaypoint{*event.add_waypoint, at}),
-               describe_event(event), now);
+    ask(autopilot::RouteRequest(autopilot::AddWaypoint{*event.add_waypoint, at}), describe_event(event), now);
+    return;
   }
   if (event.remove_waypoint) {
     const auto index = static_cast<std::uint32_t>(*event.remove_waypoint);
-    return ask(autopilot::RouteRequest(autopilot::RemoveWaypoint{index}), describe_event(event), now);
+    ask(autopilot::RouteRequest(autopilot::RemoveWaypoint{index}), describe_event(event), now);
+    return;
   }
   if (!event.swap.empty()) return swap_module(event, now);
   ask(autopilot::SetParameter{event.set, event.value}, describe_event(event), now);
@@ -118,6 +124,8 @@ void Bench::perform(PilotAction action) {
       return pilot.override_companion(true);
     case PilotAction::kHandOver:
       return pilot.override_companion(false);
+    case PilotAction::kMoveThrottle:
+      return;
     case PilotAction::kLoseRadio:
       return pilot.lose();
     case PilotAction::kFindRadio:
@@ -129,22 +137,32 @@ void Bench::perform(OperatorWish wish, const EventConfig& event, Time now) {
   ask(request_of(wish, event), describe_event(event), now);
 }
 
+const autopilot::Module& Bench::module_in(const std::string& slot) const {
+  if (slot == "estimator") return autopilot_->estimator();
+  if (slot == "path_planner") return autopilot_->path_planner();
+  if (slot == "path_manager") return autopilot_->path_manager();
+  if (slot == "trajectory_follower") return autopilot_->trajectory_follower();
+  return autopilot_->controller();
+}
+
 void Bench::swap_module(const EventConfig& event, Time now) {
-  ask(autopilot::SwapModule{event.swap, event.kind}, describe_event(event), now);
+  if (!ask(autopilot::SwapModule{event.swap, event.kind}, describe_event(event), now)) return;
+  if (probes_) probes_->watch(event.swap, event.kind, module_in(event.swap));
   const ModuleSettings* settings = loaded_.settings_of(event.swap, event.kind);
   if (settings == nullptr) return;
   for (const auto& [path, value] : settings->values) autopilot_->parameters().set(path, value);
 }
 
-void Bench::ask(const autopilot::Request& request, const std::string& what, Time now) {
+bool Bench::ask(const autopilot::Request& request, const std::string& what, Time now) {
   const autopilot::RequestOutcome outcome = autopilot_->request(request);
   if (judge_ == nullptr) {
     if (!outcome.accepted)
       throw std::invalid_argument("waypoint: the planner refuses the route: " + outcome.reason);
-    return;
+    return true;
   }
   judge_->event(now, outcome.accepted ? "request" : "refused",
                 outcome.accepted ? what : what + ": " + outcome.reason);
+  return outcome.accepted;
 }
 
 }  // namespace ironbird::scenarios

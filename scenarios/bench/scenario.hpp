@@ -65,13 +65,22 @@ struct PilotConfig {
 };
 
 /// What the pilot's hands do at an event.
-enum class PilotAction : std::uint8_t { kArm, kDisarm, kTakeOver, kHandOver, kLoseRadio, kFindRadio };
+enum class PilotAction : std::uint8_t {
+  kArm,
+  kDisarm,
+  kTakeOver,
+  kHandOver,
+  kMoveThrottle,  ///< the stick to `magnitude`, 0..1; the FCU may take it as the limit of the companion's
+  kLoseRadio,
+  kFindRadio
+};
 
-constexpr std::array<std::pair<PilotAction, std::string_view>, 6> enumerators(PilotAction) {
+constexpr std::array<std::pair<PilotAction, std::string_view>, 7> enumerators(PilotAction) {
   return {{{PilotAction::kArm, "arm"},
            {PilotAction::kDisarm, "disarm"},
            {PilotAction::kTakeOver, "take_over"},
            {PilotAction::kHandOver, "hand_over"},
+           {PilotAction::kMoveThrottle, "move_throttle"},
            {PilotAction::kLoseRadio, "lose_radio"},
            {PilotAction::kFindRadio, "find_radio"}}};
 }
@@ -160,7 +169,8 @@ struct EventConfig {
     visit("fault", self.fault, "1", "a fault begins");
     visit("lasts", self.lasts, "s", "how long the fault lasts; 0: to the end", 0.0, 86400.0);
     visit("index", self.index, "1", "of the rotor or waypoint that is meant", 0.0, 1000.0);
-    visit("magnitude", self.magnitude, "", "of the fault, in its unit; of a hold, s");
+    visit("magnitude", self.magnitude, "",
+          "of the fault, in its unit; of a hold, s; of the throttle stick, 0..1");
     visit("vector", self.vector, "", "of the fault, in its unit");
     visit("pilot", self.pilot, "1", "the pilot's hands");
     visit("request", self.request, "1", "a request of the operator");

@@ -55,7 +55,7 @@ void move_fcu_parameters(toml::table& root) {
   for (auto& [name, value] : *parameters) {
     toml::table entry;
     entry.insert("name", std::string(name.str()));
-    entry.insert("value", value);
+    entry.insert("value", std::move(value));
     list.push_back(std::move(entry));
   }
   fcu->insert_or_assign("parameters", std::move(list));
@@ -76,16 +76,15 @@ void note_places(const toml::table& table, const std::string& prefix, LoadedScen
   }
 }
 
-void read_scenario(const toml::table& root, LoadedScenario& loaded) {
+/// `vehicle` names the folder in a scenario and is a table in the folder's files: here it is the table. It is
+/// taken out of `root`, not copied, because a copy of a node forgets its place in the file.
+void read_scenario(toml::table& root, LoadedScenario& loaded) {
   Scenario& scenario = loaded.scenario;
   TomlReader reader;
-  toml::table without_vehicle_table = root;
-  // `vehicle` names the folder in a scenario and is the table in the folder's file: the loader has put the
-  // table under [vehicle].
-  const toml::table* vehicle = root["vehicle"].as_table();
-  without_vehicle_table.erase("vehicle");
-  reader.read(without_vehicle_table, scenario, "", {"autopilot", "include"});
-  if (vehicle != nullptr) reader.read(*vehicle, scenario.vehicle, "vehicle");
+  if (const toml::table* vehicle = root["vehicle"].as_table())
+    reader.read(*vehicle, scenario.vehicle, "vehicle");
+  root.erase("vehicle");
+  reader.read(root, scenario, "", {"autopilot", "include"});
   reader.finish();
 }
 

@@ -42,8 +42,8 @@ double near_hills(double azimuth) {
          0.002 * std::sin(29.0 * azimuth + 3.0) + 0.001 * std::sin(83.0 * azimuth);
 }
 
-// Mean over a footprint of a line of `width` that repeats every metre `period`, when the footprint is too
-// wide to see single lines: 0 hides nothing, 1 is the mean itself.
+// Opacity left to a pattern of `period`, m, when a pixel covers `footprint`, m: it fades out before it turns
+// into noise.
 float fade(double footprint, double period) {
   return static_cast<float>(std::clamp(1.6 - 1.8 * footprint / period, 0.0, 1.0));
 }
@@ -165,34 +165,32 @@ void Backdrop::paint_marks(const Row& row, Pixel* pixels, int width) const {
                                     row.east_step, half, width);
   const double lateral = std::hypot(row.north_step, row.east_step);
   const double reach = std::hypot(row.north_reach, row.east_reach);
-  const int samples = std::clamp(static_cast<int>(std::lround(reach / lateral)), 1, 4);
-  const float footprint = static_cast<float>(std::max(lateral, reach / samples));
+  const int samples = std::clamp(static_cast<int>(std::lround(reach / lateral)), 1, 3);
+  const GroundMarks::Sampler marks = marks_.sampler(static_cast<float>(std::max(lateral, reach / samples)));
+  const float share = 1.0F / static_cast<float>(samples);
   const float haze = static_cast<float>(row.haze);
+  const GroundMarks::Paint horizon(static_cast<float>(kHorizon.x()), static_cast<float>(kHorizon.y()),
+                                   static_cast<float>(kHorizon.z()), 0.0F);
   // Samples spread along the line of sight, which on the ground is square to the row.
   const double north_side = lateral > 0.0 ? -row.east_step / lateral : 0.0;
   const double east_side = lateral > 0.0 ? row.north_step / lateral : 0.0;
   for (int x = first_last.first; x < first_last.second; ++x) {
-    GroundMarks::Paint sum;
+    GroundMarks::Paint paint = GroundMarks::Paint::Zero();
     for (int k = 0; k < samples; ++k) {
       const double along = reach * ((k + 0.5) / samples - 0.5);
-      const GroundMarks::Paint paint =
-          marks_.sample(static_cast<float>(row.north + row.north_step * x + along * north_side),
-                        static_cast<float>(row.east + row.east_step * x + along * east_side), footprint);
-      sum.r += paint.r;
-      sum.g += paint.g;
-      sum.b += paint.b;
-      sum.opacity += paint.opacity;
+      paint += marks(static_cast<float>(row.north + row.north_step * x + along * north_side),
+                     static_cast<float>(row.east + row.east_step * x + along * east_side));
     }
-    const float share = 1.0F / static_cast<float>(samples);
-    const float opacity = sum.opacity * share;
-    const auto blend = [&](std::uint8_t under, float over, double hazy) {
-      const float paint = over * share * (1.0F - haze) + haze * opacity * static_cast<float>(hazy);
-      return static_cast<std::uint8_t>(static_cast<float>(under) * (1.0F - opacity) + paint + 0.5F);
-    };
+    if (paint[3] == 0.0F) {
+      continue;
+    }
+    paint *= share;
+    const float opacity = paint[3];
+    paint += haze * (opacity * horizon - paint) + 0.5F;
     Pixel& p = pixels[x];
-    p.r = blend(p.r, sum.r, kHorizon.x());
-    p.g = blend(p.g, sum.g, kHorizon.y());
-    p.b = blend(p.b, sum.b, kHorizon.z());
+    p.r = static_cast<std::uint8_t>(static_cast<float>(p.r) * (1.0F - opacity) + paint[0]);
+    p.g = static_cast<std::uint8_t>(static_cast<float>(p.g) * (1.0F - opacity) + paint[1]);
+    p.b = static_cast<std::uint8_t>(static_cast<float>(p.b) * (1.0F - opacity) + paint[2]);
   }
 }
 

@@ -12,16 +12,16 @@ constexpr int kSubsamples = 3;  // per texel and axis while painting
 
 using Paint = GroundMarks::Paint;
 
-constexpr Paint kConcrete{96.0F * 0.92F, 99.0F * 0.92F, 102.0F * 0.92F, 0.92F};
-constexpr Paint kWhite{238.0F, 240.0F, 240.0F, 1.0F};
-constexpr Paint kYellow{247.0F, 190.0F, 40.0F, 1.0F};
-constexpr Paint kRed{226.0F, 66.0F, 36.0F, 1.0F};
+const Paint kConcrete(96.0F * 0.92F, 99.0F * 0.92F, 102.0F * 0.92F, 0.92F);
+const Paint kWhite(238.0F, 240.0F, 240.0F, 1.0F);
+const Paint kYellow(247.0F, 190.0F, 40.0F, 1.0F);
+const Paint kRed(226.0F, 66.0F, 36.0F, 1.0F);
 
 // x east, y north, in radii of the pad.
 Paint helipad_paint(double x, double y) {
   const double r = std::hypot(x, y);
   if (r > 1.0) {
-    return {};
+    return Paint::Zero();
   }
   if (r > 0.86 && r < 0.95) {
     return kYellow;
@@ -42,8 +42,7 @@ double glyph_coverage(const GlyphAtlas& letters, char letter, double x, double y
 }
 
 Paint faded(const Paint& paint, double opacity) {
-  const float k = static_cast<float>(opacity);
-  return {paint.r * k, paint.g * k, paint.b * k, paint.opacity * k};
+  return paint * static_cast<float>(opacity);
 }
 
 // x east, y north, in radii of the rose.
@@ -73,11 +72,7 @@ Paint rose_paint(double x, double y, const GlyphAtlas& letters) {
   if (y > 1.0 && y < 1.18 && std::abs(x) < 0.45 * (1.18 - y)) {
     return kRed;
   }
-  return {};
-}
-
-Paint operator+(const Paint& a, const Paint& b) {
-  return {a.r + b.r, a.g + b.g, a.b + b.b, a.opacity + b.opacity};
+  return Paint::Zero();
 }
 
 }  // namespace
@@ -88,21 +83,21 @@ GroundMarks::GroundMarks(const GroundMark& helipad, const GroundMark& compass_ro
   if (half_size_ == 0.0) {
     return;
   }
-  Level full{kTexels, std::vector<Paint>(static_cast<std::size_t>(kTexels * kTexels))};
+  Level full{kTexels, std::vector<Paint>(static_cast<std::size_t>(kTexels * kTexels), Paint::Zero())};
   const double step = 2.0 * half_size_ / (kTexels * kSubsamples);
   for (int j = 0; j < kTexels * kSubsamples; ++j) {
     for (int i = 0; i < kTexels * kSubsamples; ++i) {
       const double east = (i + 0.5) * step - half_size_;
       const double north = half_size_ - (j + 0.5) * step;
-      Paint paint;
+      Paint paint = Paint::Zero();
       if (helipad.radius > 0.0) {
         paint = helipad_paint(east / helipad.radius, north / helipad.radius);
       }
-      if (paint.opacity == 0.0F && compass_rose.radius > 0.0) {
+      if (paint[3] == 0.0F && compass_rose.radius > 0.0) {
         paint = rose_paint(east / compass_rose.radius, north / compass_rose.radius, letters);
       }
       Paint& texel = full.paint[static_cast<std::size_t>(j / kSubsamples * kTexels + i / kSubsamples)];
-      texel = texel + faded(paint, 1.0 / (kSubsamples * kSubsamples));
+      texel += faded(paint, 1.0 / (kSubsamples * kSubsamples));
     }
   }
   levels_.push_back(std::move(full));
@@ -119,31 +114,21 @@ GroundMarks::GroundMarks(const GroundMark& helipad, const GroundMark& compass_ro
   }
 }
 
-Paint GroundMarks::sample(float north, float east, float footprint) const {
+GroundMarks::Sampler GroundMarks::sampler(float footprint) const {
   const float texels = footprint * static_cast<float>(kTexels / (2.0 * half_size_));
   std::size_t index = 0;
   for (float span = 1.5F; texels > span && index + 1 < levels_.size(); span *= 2.0F) {
     ++index;
   }
   const Level& level = levels_[index];
-  const float scale = static_cast<float>(level.size / (2.0 * half_size_));
-  const float x = (east - static_cast<float>(center_N_.y() - half_size_)) * scale - 0.5F;
-  const float y = (static_cast<float>(center_N_.x() + half_size_) - north) * scale - 0.5F;
-  if (!(x >= 0.0F && y >= 0.0F && x < static_cast<float>(level.size - 1) &&
-        y < static_cast<float>(level.size - 1))) {
-    return {};
-  }
-  const int i = static_cast<int>(x);
-  const int j = static_cast<int>(y);
-  const float fx = x - static_cast<float>(i);
-  const float fy = y - static_cast<float>(j);
-  const Paint* at = level.paint.data() + j * level.size + i;
-  const auto blend = [&](float Paint::*c) {
-    const float upper = at[0].*c + fx * (at[1].*c - at[0].*c);
-    const float lower = at[level.size].*c + fx * (at[level.size + 1].*c - at[level.size].*c);
-    return upper + fy * (lower - upper);
-  };
-  return {blend(&Paint::r), blend(&Paint::g), blend(&Paint::b), blend(&Paint::opacity)};
+  const double scale = level.size / (2.0 * half_size_);
+  Sampler sampler;
+  sampler.texels_ = level.paint.data();
+  sampler.size_ = level.size;
+  sampler.scale_ = static_cast<float>(scale);
+  sampler.east_offset_ = static_cast<float>(-(center_N_.y() - half_size_) * scale - 0.5);
+  sampler.north_offset_ = static_cast<float>((center_N_.x() + half_size_) * scale - 0.5);
+  return sampler;
 }
 
 }  // namespace ironbird::simulator

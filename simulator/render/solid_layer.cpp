@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "simulator/frames/ned_nwu.hpp"
 #include "simulator/render/offscreen_context.hpp"
@@ -76,6 +78,9 @@ struct SolidLayer::Engine {
     model->vis.global.offheight = max_height;
     model->vis.quality.offsamples = 0;
     model->vis.quality.shadowsize = 0;
+    model->vis.quality.numslices = 16;
+    model->vis.quality.numstacks = 8;
+    model->vis.quality.numquads = 1;
     data = mj_makeData(model);
     hidden.assign(static_cast<std::size_t>(model->ngeom), false);
     mjv_defaultScene(&scene);
@@ -140,6 +145,58 @@ struct SolidLayer::Engine {
     return any ? GroundMark{0.5 * (low + high), 0.5 * (high - low).norm()} : GroundMark{};
   }
 
+  std::vector<RotorGeometry> find_rotors() const {
+    std::vector<RotorGeometry> rotors;
+    for (int i = 0; i < kMaxRotors; ++i) {
+      const std::string name = "rotor_" + std::to_string(i);
+      const int body = mj_name2id(model, mjOBJ_BODY, name.c_str());
+      if (body < 0) {
+        break;
+      }
+      RotorGeometry rotor;
+      rotor.p_B = ned_nwu(engine_vector(model->body_pos + 3 * body));
+      rotor.joint_address = model->jnt_qposadr[find(mjOBJ_JOINT, name, "joint")];
+      const int first = model->body_geomadr[body];
+      for (int g = first; g < first + model->body_geomnum[body]; ++g) {
+        const double reach =
+            engine_vector(model->geom_pos + 3 * g).head<2>().norm() + model->geom_size[3 * g];
+        rotor.radius = std::max(rotor.radius, reach);
+      }
+      rotors.push_back(rotor);
+    }
+    return rotors;
+  }
+
+  // Nearest and farthest depth of what is selected, with a little room, m.
+  std::pair<double, double> depth_range(const Projection& projection) const {
+    double nearest = 1e9;
+    double farthest = 1.0;
+    for (int i = 0; i < scene.ngeom; ++i) {
+      const Sphere s = sphere(scene.geoms[i].objid);
+      const double depth = projection.forward_N().dot(s.center_N - projection.p_N());
+      nearest = std::min(nearest, depth - s.radius);
+      farthest = std::max(farthest, depth + s.radius);
+    }
+    const double near = std::max(kNearPlane, 0.98 * nearest);
+    return {near, std::max(1.02 * farthest, near + 1.0)};
+  }
+
+  // Points the engine's camera so that the viewport is exactly `rect` of the whole picture.
+  void aim(const Projection& projection, const PixelRect& rect, double near, double far) {
+    mjvGLCamera& camera = scene.camera[0];
+    const double scale = near / projection.focal();
+    store(ned_nwu(projection.p_N()), camera.pos);
+    store(ned_nwu(projection.forward_N()), camera.forward);
+    store(ned_nwu(Vector3(-projection.down_N())), camera.up);
+    camera.frustum_center =
+        static_cast<float>(scale * (0.5 * (rect.left + rect.right) - projection.center_u()));
+    camera.frustum_top = static_cast<float>(scale * (projection.center_v() - rect.top));
+    camera.frustum_bottom = static_cast<float>(scale * (projection.center_v() - rect.bottom));
+    camera.frustum_near = static_cast<float>(near);
+    camera.frustum_far = static_cast<float>(far);
+    scene.camera[1] = camera;
+  }
+
   void collect() {
     mjvCamera free_camera;
     mjv_defaultCamera(&free_camera);
@@ -166,21 +223,7 @@ SolidLayer::SolidLayer(const std::string& vehicle, const std::string& field, int
   engine.vehicle_body = engine.find(mjOBJ_BODY, "vehicle", "body");
   engine.vehicle_joint = model.jnt_qposadr[model.body_jntadr[engine.vehicle_body]];
   mj_kinematics(engine.model, engine.data);
-  for (int i = 0; i < kMaxRotors; ++i) {
-    const std::string name = "rotor_" + std::to_string(i);
-    const int body = mj_name2id(&model, mjOBJ_BODY, name.c_str());
-    if (body < 0) {
-      break;
-    }
-    RotorGeometry rotor;
-    rotor.p_B = ned_nwu(engine_vector(model.body_pos + 3 * body));
-    rotor.joint_address = model.jnt_qposadr[engine.find(mjOBJ_JOINT, name, "joint")];
-    for (int g = model.body_geomadr[body]; g < model.body_geomadr[body] + model.body_geomnum[body]; ++g) {
-      const double reach = engine_vector(model.geom_pos + 3 * g).head<2>().norm() + model.geom_size[3 * g];
-      rotor.radius = std::max(rotor.radius, reach);
-    }
-    rotors_.push_back(rotor);
-  }
+  rotors_ = engine.find_rotors();
   for (int geom = 0; geom < model.ngeom; ++geom) {
     if (engine.belongs(geom, SolidPart::kVehicle)) {
       const Sphere s = engine.sphere(geom);
@@ -263,30 +306,10 @@ const SolidPicture& SolidLayer::draw(const Projection& projection, PixelRect rec
   Engine& engine = *engine_;
   engine.context.make_current();
   engine.select(part);
-  double nearest = 1e9;
-  double farthest = 1.0;
-  for (int i = 0; i < engine.scene.ngeom; ++i) {
-    const Sphere s = engine.sphere(engine.scene.geoms[i].objid);
-    const double depth = projection.forward_N().dot(s.center_N - projection.p_N());
-    nearest = std::min(nearest, depth - s.radius);
-    farthest = std::max(farthest, depth + s.radius);
-  }
   picture_.rect = rect;
   picture_.samples = samples;
-  picture_.near = std::max(kNearPlane, 0.98 * nearest);
-  picture_.far = std::max(1.02 * farthest, picture_.near + 1.0);
-  mjvGLCamera& camera = engine.scene.camera[0];
-  const double scale = picture_.near / projection.focal();
-  store(ned_nwu(projection.p_N()), camera.pos);
-  store(ned_nwu(projection.forward_N()), camera.forward);
-  store(ned_nwu(Vector3(-projection.down_N())), camera.up);
-  camera.frustum_center =
-      static_cast<float>(scale * (0.5 * (rect.left + rect.right) - projection.center_u()));
-  camera.frustum_top = static_cast<float>(scale * (projection.center_v() - rect.top));
-  camera.frustum_bottom = static_cast<float>(scale * (projection.center_v() - rect.bottom));
-  camera.frustum_near = static_cast<float>(picture_.near);
-  camera.frustum_far = static_cast<float>(picture_.far);
-  engine.scene.camera[1] = camera;
+  std::tie(picture_.near, picture_.far) = engine.depth_range(projection);
+  engine.aim(projection, rect, picture_.near, picture_.far);
   const mjrRect viewport{0, 0, rect.width() * samples, rect.height() * samples};
   mjr_render(viewport, &engine.scene, &engine.renderer);
   const std::size_t count =

@@ -65,6 +65,17 @@ TEST_F(FlatPidFollowerTest, TurnsErrorsAndReferencesIntoTheClosedForm) {
   EXPECT_NEAR(s.pitch, std::atan(north / down), kRoundOff);
 }
 
+TEST_F(FlatPidFollowerTest, LeansAgainstTheDragOfTheTrajectorysSpeed) {
+  set([](FlatPidFollowerParams& p) { p.drag = 0.5; });
+  point_.v_N << 2.0, -1.0, 3.0;
+  estimate_.v_NB_B = point_.v_N;
+  const AngleHeadingRateThrust s = run();
+  const double magnitude = std::hypot(1.0, -0.5, -9.81);
+  EXPECT_NEAR(s.thrust, 3.9 * magnitude, kRoundOff) << "nothing for the vertical speed";
+  EXPECT_NEAR(s.pitch, std::atan(-1.0 / 9.81), kRoundOff);
+  EXPECT_NEAR(s.roll, std::asin(-0.5 / magnitude), kRoundOff);
+}
+
 TEST_F(FlatPidFollowerTest, IgnoresTheVelocityReferenceLikeTheReferenceWhenToldTo) {
   without_integrals();
   set([](FlatPidFollowerParams& p) { p.use_velocity_reference = false; });

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "hil_bridge/virtual_fcu/test/fake_board.hpp"
 
@@ -305,6 +306,25 @@ TEST(FirmwareTelemetryTest, SaysTheControlModeOfTheRollChannel) {
     fcu.pass();
     EXPECT_EQ(fcu.sent<RosflightStatus>().back().control_mode, row.control_mode);
     EXPECT_EQ(fcu.sent<RosflightStatus>().back().offboard, 1);
+  }
+}
+
+// ---- samples that are no numbers ----
+
+TEST(FirmwareTest, ControlsWithTheLastGoodSampleWhenOneIsNotANumber) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  FlyingBoard fcu;
+  fcu.deliver(OffboardControl{.u = {0, 0, 0.5F, 0.1F, 0, 0}, .ignore = 0, .mode = 2});
+  fcu.rc_pass();
+  fcu.imu_passes(3);
+  const auto before = fcu.board().outputs;
+  fcu.board().baro = PressureInput{.pressure = kNan};
+  fcu.imu_pass({kNan, kNan, kNan}, {kNan, kNan, kNan});
+  EXPECT_TRUE(std::isnan(fcu.sent<SmallImu>().back().zacc));  // the companion sees what the chip said
+  fcu.imu_pass();
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_GT(before[k], 0.0F);
+    EXPECT_NEAR(fcu.board().outputs[k], before[k], 0.05F);  // two ticks of the angle loop; a NaN fails
   }
 }
 

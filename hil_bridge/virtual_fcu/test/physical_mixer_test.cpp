@@ -87,7 +87,7 @@ TEST(ModelFilesTest, GiveTheX650TheMixerOfItsGeometry) {
     rotors.push_back({rotor["position"][0].value<double>().value(),
                       rotor["position"][1].value<double>().value(), -number(rotor, "direction")});
   }
-  const auto expected = physical_mixer(rotors, {.density = 1.225,
+  const auto expected = physical_mixer(rotors, {.density = 1.074,  // frame file
                                                 .diameter = number(parameters, "PROP_DIAMETER"),
                                                 .CT = number(parameters, "PROP_CT"),
                                                 .CQ = number(parameters, "PROP_CQ")});
@@ -115,7 +115,7 @@ TEST(ModelFilesTest, GiveTheX650TheMotorOfItsVehicle) {
 }
 
 TEST(ModelFilesTest, FailTheX650SafeJustBelowHoverAtItsField) {
-  constexpr double kThinAir = 1.07 / 1.225;  // standard atmosphere at 1387 m, against the air of the mixer
+  constexpr double kThinAir = 1.070 / 1.074;  // standard atmosphere at 1387 m, against the air of the mixer
   const toml::table fcu = toml::parse_file(IRONBIRD_SOURCE_DIR "/models/x650/fcu.toml");
   const Firmware firmware(parameters_of(fcu));
   const double thrust = static_cast<double>(firmware.parameters().real(parameter("FAILSAFE_THR")) *
