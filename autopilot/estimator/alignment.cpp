@@ -77,6 +77,7 @@ void Alignment::reset() {
   window_ = Window{};
   started_ = false;
   armed_ = false;
+  imu_calibrated_ = true;
   start_ = StartState{};
 }
 
@@ -172,7 +173,10 @@ void Alignment::find_in_motion(const AidingParams& params, Time now) {
 }
 
 void Alignment::collect(const SensorFrame& frame, double dt) {
-  if (frame.status) armed_ = frame.status->armed;
+  if (frame.status) {
+    armed_ = frame.status->armed;
+    imu_calibrated_ = frame.status->imu_calibrated;
+  }
   add_imu(frame.imu, dt);
   if (frame.mag) {
     const Vector3 m_B = frame.mag->m_B.normalized();
@@ -191,7 +195,10 @@ void Alignment::collect(const SensorFrame& frame, double dt) {
 
 bool Alignment::add(const SensorFrame& frame, double dt, const AidingParams& params) {
   const Time now = frame.imu.stamp;
-  if (!started_) {
+  // Offsets that are still to be found will step: what is averaged before says nothing about what comes
+  // after.
+  const bool waits = !imu_calibrated_ && !armed_;
+  if (!started_ || waits) {
     started_ = true;
     first_stamp_ = now;
     begin_window(now);

@@ -52,7 +52,7 @@ struct StartState {
 ///
 /// At rest the accelerometer measures -R^T g e_d + bias. Tilt and the horizontal bias cannot be told apart
 /// there, and are not: tilt takes all of it. Only |f| - g along f is seen, and is kept as the accelerometer's
-/// offset.
+/// offset. On the ground it waits until the FCU has found the offsets of its inertial unit, which step then.
 class Alignment {
  public:
   void reset();
@@ -105,6 +105,7 @@ class Alignment {
   Time first_stamp_{0};
   bool started_ = false;
   bool armed_ = false;
+  bool imu_calibrated_ = true;
   StartState start_;
 };
 

@@ -32,11 +32,15 @@ double turning(const StateEstimate& estimate) {
 
 void FlatPidFollower::on_parameters() {
   const FlatPidFollowerParams& p = params();
-  north_.configure(p.north, p.derivative_time_constant);
-  east_.configure(p.east, p.derivative_time_constant);
-  down_.configure(p.down, p.derivative_time_constant);
-  heading_.configure(p.heading, p.derivative_time_constant, -p.max_heading_rate, p.max_heading_rate);
   tan_max_tilt_ = std::tan(p.max_tilt);
+  // What the vehicle cannot do must not be integrated: the loops know what tilt and thrust can give.
+  const double sideways = p.gravity * tan_max_tilt_;
+  const double upward = std::max(0.0, p.max_thrust / p.mass - p.gravity);
+  const double downward = std::max(0.0, p.gravity - p.min_lift);
+  north_.configure(p.north, p.derivative_time_constant, -sideways, sideways);
+  east_.configure(p.east, p.derivative_time_constant, -sideways, sideways);
+  down_.configure(p.down, p.derivative_time_constant, -upward, downward);
+  heading_.configure(p.heading, p.derivative_time_constant, -p.max_heading_rate, p.max_heading_rate);
 }
 
 void FlatPidFollower::reset() {

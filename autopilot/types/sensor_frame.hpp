@@ -134,6 +134,7 @@ struct FcuStatus {
   bool offboard = false;
   int rc_override = 0;
   int error_code = 0;
+  bool imu_calibrated = true;
   double battery_voltage = 0.0;
 
   template <class Self, class Visit>
@@ -145,6 +146,8 @@ struct FcuStatus {
     visit("rc_override", self.rc_override, "1",
           "bits: which axes the pilot holds and why; 0: the companion has them all");
     visit("error_code", self.error_code, "1", "bits: faults that the FCU reports");
+    visit("imu_calibrated", self.imu_calibrated, "1",
+          "0: the offsets of the inertial unit are still to be found");
     visit("battery_voltage", self.battery_voltage, "V",
           "low-passed battery voltage; 0 before the first reading");
   }

@@ -331,6 +331,7 @@ struct RosflightOutputRaw {
 struct RosflightStatus {
   static constexpr std::uint8_t kId = 191;
   static constexpr const char* kName = "ROSFLIGHT_STATUS";
+  static constexpr std::uint8_t kUncalibratedImu = 0x20;  ///< of error_code
 
   std::uint16_t rc_override{};
   std::int16_t num_errors{};

@@ -36,6 +36,16 @@ void Firmware::pass(Board& board) {
   }
 }
 
+namespace {
+
+/// The range of the barometer chips. Outside it the reading says nothing, and a density made of it would stop
+/// the motors.
+bool is_atmospheric(float pressure) {
+  return pressure >= 10'000.0F && pressure <= 120'000.0F;
+}
+
+}  // namespace
+
 void Firmware::read_sensors(Board& board) {
   if (board.imu) {
     const ImuInput rotated = corrections_.rotated(*board.imu);
@@ -46,11 +56,12 @@ void Firmware::read_sensors(Board& board) {
     if (sound) believed_imu_ = imu_;
     believed_imu_.stamp_us = imu_.stamp_us;
   }
-  if (board.baro && std::isfinite(board.baro->pressure)) {
+  if (board.baro && is_atmospheric(board.baro->pressure)) {
     density_ = density_of(board.baro->pressure);
     if (baro_calibration_.running()) calibrate_pressure(baro_calibration_, board.baro->pressure);
   }
-  if (board.differential_pressure && airspeed_calibration_.running()) {
+  if (board.differential_pressure && std::isfinite(board.differential_pressure->pressure) &&
+      airspeed_calibration_.running()) {
     calibrate_pressure(airspeed_calibration_, board.differential_pressure->pressure);
   }
   if (board.battery && std::isfinite(board.battery->voltage)) battery_.add(*board.battery);

@@ -19,6 +19,8 @@ void note_interrupts() {
   struct sigaction action = {};
   action.sa_handler = note;
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C ends the program
+  // A file that grows too large is an error of its write, told in a line, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }

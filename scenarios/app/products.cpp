@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/config/include.hpp"
 #include "scenarios/config/toml_reader.hpp"
 #include "scenarios/report/report.hpp"
@@ -32,7 +33,8 @@ double time_of_snapshot(const Log& log, const std::string& name) {
   const LogTopic* events = log.topic("/bench/event");
   if (events == nullptr) return std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < events->time().size(); ++i) {
-    if (events->texts("kind")[i] == "snapshot" && events->texts("text")[i] == name) return events->time()[i];
+    if (events->texts("kind")[i] == "snapshot" && events->texts("text")[i] == picture_event(name))
+      return events->time()[i];
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

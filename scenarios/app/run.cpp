@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,12 @@ std::vector<std::pair<std::string, std::string>> split_settings(const std::vecto
   return pairs;
 }
 
+constexpr std::uint64_t kMostSeeds = 10'000;
+
 /// "7" or "1:20". Empty: the scenario's own seed.
 std::vector<std::uint64_t> parse_seeds(const std::string& text) {
   if (text.empty()) return {};
+  if (text.find('-') != std::string::npos) throw ConfigError("--seed " + text + ": must not be negative");
   try {
     std::size_t used = 0;
     const std::uint64_t first = std::stoull(text, &used);
@@ -54,10 +58,12 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
     const std::uint64_t last = std::stoull(tail, &rest);
     if (rest != tail.size() || last < first) throw std::invalid_argument(text);
     std::vector<std::uint64_t> seeds;
+    if (last - first >= kMostSeeds) throw std::invalid_argument(text);
     for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
     return seeds;
   } catch (const std::logic_error&) {
-    throw ConfigError("--seed " + text + ": must be a number, or first:last such as 1:20");
+    throw ConfigError("--seed " + text + ": must be a number, or first:last such as 1:20, at most " +
+                      std::to_string(kMostSeeds) + " of them");
   }
 }
 
@@ -78,13 +84,26 @@ std::vector<RunJob> make_jobs(const RunArguments& arguments, const autopilot::Mo
   return jobs;
 }
 
+/// Two scenarios of the same file name would write over each other.
+void check_folders(const std::vector<RunJob>& jobs) {
+  std::set<std::filesystem::path> folders;
+  for (const RunJob& job : jobs) {
+    if (!folders.insert(job.folder.lexically_normal()).second) {
+      throw ConfigError(job.folder.string() +
+                        ": two of the scenarios would write here; fly them apart, with another --out");
+    }
+  }
+}
+
 int run(RunArguments arguments, const autopilot::Modules& modules) {
   arguments.products.log = !arguments.no_log;
   arguments.products.report = !arguments.no_report && !arguments.no_log;
   if (arguments.no_log && (arguments.products.video || arguments.products.snapshots)) {
     throw ConfigError("--no-log: film and snapshots are made from the log; leave one of the options away");
   }
+  if (arguments.out.empty()) throw ConfigError("--out: must name a folder");
   const std::vector<RunJob> jobs = make_jobs(arguments, modules);
+  check_folders(jobs);
   const Terminal terminal = Terminal::of_standard_error();
   const std::vector<RunResult> results = run_jobs(jobs, modules, arguments.jobs, terminal);
   if (!arguments.junit.empty()) write_junit_file(results, arguments.junit);

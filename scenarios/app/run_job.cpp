@@ -58,9 +58,18 @@ void check_scene(const RunJob& job) {
                          (root / scenario.field).string());
 }
 
+/// What an earlier run left in the folder must not be taken for this one's.
+void remove_old_products(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {"verdict.json", "report.html", "flight.mcap", "video.mp4"}) {
+    std::filesystem::remove(folder / name, ignored);
+  }
+}
+
 RunResult carry_out(const RunJob& job, const autopilot::Modules& modules, const Terminal& terminal) {
   if (job.products.video || job.products.snapshots) check_scene(job);
   make_folder(job.folder);
+  remove_old_products(job.folder);
   bool interrupted = false;
   RunResult result{job.folder, fly(job, modules, terminal, interrupted), 0, {}};
   write_verdict(*result.verdict, job.folder / "verdict.json");

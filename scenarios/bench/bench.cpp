@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 #include "simulator/plant/mujoco_plant.hpp"
 #include "simulator/plant/ode_plant.hpp"
@@ -21,14 +22,6 @@ constexpr std::chrono::nanoseconds kProgressPeriod = std::chrono::seconds(1);
 constexpr double kDisarmDelay = 1.0;
 /// The pilot gives the vehicle to the companion this long after arming.
 constexpr double kHandOverDelay = 0.5;
-
-std::chrono::nanoseconds from_seconds(double seconds) {
-  return std::chrono::nanoseconds(static_cast<std::int64_t>(std::llround(seconds * 1e9)));
-}
-
-double to_seconds(std::chrono::nanoseconds time) {
-  return static_cast<double>(time.count()) * 1e-9;
-}
 
 Vector3 vector(const std::array<double, 3>& numbers) {
   return {numbers[0], numbers[1], numbers[2]};
@@ -147,7 +140,6 @@ void Bench::wire_script() {
     schedule("", scenario_.pilot.arm_at, {Deed::Kind::kArm, 0});
     schedule("", scenario_.pilot.arm_at + kHandOverDelay, {Deed::Kind::kHandOver, 0});
     schedule("", scenario_.pilot.take_off_at, {Deed::Kind::kTakeOff, 0});
-    schedule("landed", kDisarmDelay, {Deed::Kind::kDisarm, 0});
   }
   for (std::size_t i = 0; i < scenario_.events.size(); ++i) {
     schedule(scenario_.events[i].after, scenario_.events[i].at, {Deed::Kind::kEvent, i});
@@ -211,8 +203,12 @@ void Bench::publish_events(Time now) {
   const std::vector<RunEvent>& events = judge_->events();
   for (; published_events_ < events.size(); ++published_events_) {
     const RunEvent& event = events[published_events_];
-    script_.happened(event.text, now);
+    // A picture's name or a text of the FCU is no event of the flight.
+    if (event.kind != "snapshot" && event.kind != "fcu") script_.happened(event.text, now);
     script_.happened(event.kind + ":" + event.text, now);
+    if (scenario_.pilot.automatic && event.text == "landed" && event.kind == "ground") {
+      schedule("", to_seconds(now) + kDisarmDelay, {Deed::Kind::kDisarm, 0});
+    }
     if (recorder_) recorder_->write_once("/bench/event", event, now);
   }
 }

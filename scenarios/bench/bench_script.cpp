@@ -5,15 +5,12 @@
 #include <utility>
 
 #include "scenarios/bench/bench.hpp"
+#include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
-
-std::chrono::nanoseconds from_seconds(double seconds) {
-  return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9 + 0.5));
-}
 
 autopilot::Request request_of(OperatorWish wish, const EventConfig& event) {
   switch (wish) {
@@ -57,11 +54,11 @@ void Bench::perform(const Deed& deed, Time now) {
       ask(autopilot::TakeOff{}, "take_off", now);
       return;
     case Deed::Kind::kDisarm:
-      // A pilot whose vehicle only bounced leaves the switch alone.
-      if (world_->truth().in_contact) perform(PilotAction::kDisarm);
+      // A pilot whose vehicle has left the ground again leaves the switch alone.
+      if (!ground_.airborne()) perform(PilotAction::kDisarm);
       return;
     case Deed::Kind::kSnapshot:
-      return judge_->event(now, "snapshot", scenario_.snapshots[deed.index].name);
+      return judge_->event(now, "snapshot", picture_event(scenario_.snapshots[deed.index].name));
     case Deed::Kind::kEnd:
       ended_ = true;
       return;
@@ -99,12 +96,7 @@ void Bench::perform(const EventConfig& event, Time now) {
 }
 
 void Bench::begin_fault(const EventConfig& event, Time now) {
-  simulator::Fault fault;
-  fault.kind = *event.fault;
-  fault.index = event.index;
-  fault.magnitude = event.magnitude;
-  fault.vector = {event.vector[0], event.vector[1], event.vector[2]};
-  const int number = world_->begin(fault);
+  const int number = world_->begin(fault_of(event));
   judge_->event(now, "fault", describe_event(event));
   if (event.lasts > 0.0) {
     running_faults_[static_cast<std::size_t>(number)] = describe_event(event);

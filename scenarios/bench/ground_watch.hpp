@@ -12,8 +12,11 @@ namespace ironbird::scenarios {
 class GroundWatch {
  public:
   /// @return "lifted_off" when the vehicle lost the ground for the first time since it stood on it, "landed"
-  /// when it has touched the ground for half a second since then, otherwise nothing
+  /// when it has rested on the ground for half a second since then, otherwise nothing
   std::optional<std::string_view> observe(const simulator::Truth& truth);
+
+  /// Between "lifted_off" and "landed".
+  bool airborne() const { return airborne_; }
 
  private:
   bool airborne_ = false;

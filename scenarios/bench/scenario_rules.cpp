@@ -1,12 +1,14 @@
 #include "scenarios/bench/scenario_rules.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "scenarios/config/nearest_name.hpp"
+#include "simulator/fault/fault_state.hpp"
 
 namespace ironbird::scenarios {
 
@@ -36,6 +38,8 @@ class Rules {
     check_waypoints();
     check_events();
     check_cameras();
+    check_snapshots();
+    check_faults();
     return findings_;
   }
 
@@ -115,6 +119,35 @@ class Rules {
     }
   }
 
+  void check_snapshots() {
+    std::vector<std::string> seen;
+    const auto& snapshots = loaded_.scenario.snapshots;
+    for (std::size_t i = 0; i < snapshots.size(); ++i) {
+      const std::string& name = snapshots[i].name;
+      const std::string path = "snapshot[" + std::to_string(i) + "].name = \"" + name + "\"";
+      const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_' || c == '-';
+      });
+      if (!plain) report(path + ": becomes a file name: letters, digits, _ and - only");
+      if (std::find(seen.begin(), seen.end(), name) != seen.end())
+        report(path + ": is taken by another snapshot");
+      seen.push_back(name);
+    }
+  }
+
+  void check_faults() {
+    const int rotors = static_cast<int>(loaded_.scenario.vehicle.rotors.size());
+    const auto& events = loaded_.scenario.events;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      if (!events[i].fault) continue;
+      try {
+        simulator::check(fault_of(events[i]), rotors);
+      } catch (const std::invalid_argument& error) {
+        report("event[" + std::to_string(i) + "]: " + error.what());
+      }
+    }
+  }
+
   void report(const std::string& finding) {
     findings_.push_back(loaded_.located(std::invalid_argument(finding)).what());
   }
@@ -140,6 +173,14 @@ autopilot::ControlSetpoint only_setpoint(const SetpointConfig& config) {
                                 " entry points, must give exactly one");
   }
   return given.front();
+}
+
+simulator::Fault fault_of(const EventConfig& event) {
+  return {*event.fault, event.index, event.magnitude, {event.vector[0], event.vector[1], event.vector[2]}};
+}
+
+std::string picture_event(const std::string& snapshot) {
+  return "picture " + snapshot;
 }
 
 std::string describe_event(const EventConfig& event) {

@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kStep = 2.5e-3;         // s
 constexpr double kContactStep = 0.5e-3;  // s
+constexpr int kRestart = 10000;          // steps
 
 VehicleParams vehicle_params() {
   VehicleParams params = reference_multirotor();
@@ -35,13 +36,18 @@ void fly(benchmark::State& timing, Plant& plant, double height, double dt) {
   plant.configure(vehicle.mass_properties(), environment.gravity());
   RigidBodyState state;
   state.p_NB_N.z() = -height;
-  plant.reset(state, height > 1.0 ? vehicle.equilibrium_speeds() : RotorSpeeds::Zero());
+  const RotorSpeeds speeds = height > 1.0 ? vehicle.equilibrium_speeds() : RotorSpeeds::Zero();
+  plant.reset(state, speeds);
   const double hover = height > 1.0 ? vehicle.equilibrium_command() : 0.0;
   int i = 0;
   for (auto _ : timing) {
     RotorCommands commands;
     commands.throttle.fill(hover);
     commands.throttle[0] += (++i & 1) != 0 ? 1e-3 : -1e-3;
+    if (i % kRestart == 0) {  // or the battery would run down and the vehicle come to the ground
+      vehicle.set_battery_charge(1.0);
+      plant.reset(state, speeds);
+    }
     vehicle.set_commands(commands);
     plant.step(dt, vehicle);
     vehicle.finish_step(dt, plant.state(), plant.rotors());

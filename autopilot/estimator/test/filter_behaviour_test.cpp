@@ -83,6 +83,20 @@ class FilterTest : public ::testing::TestWithParam<Kind> {
     return finder.found;
   }
 
+  Vector3 probed_vector(const std::string& wanted) const {
+    struct Finder final : ProbeVisitor {
+      std::string wanted;
+      Vector3 found = Vector3::Constant(kNan);
+      void operator()(std::string_view, double, std::string_view) override {}
+      void operator()(std::string_view name, const Vector3& value, std::string_view) override {
+        if (name == wanted) found = value;
+      }
+    } finder;
+    finder.wanted = wanted;
+    estimator->probe(finder);
+    return finder.found;
+  }
+
   FakeSensors sensors{7};
   std::unique_ptr<AidedEstimator> estimator;
   StateEstimate x;
@@ -99,6 +113,28 @@ TEST_P(FilterTest, FindsItsStartAtRestBeforeArming) {
   EXPECT_NEAR(x.origin.latitude, sensors.latitude, 1.0e-7);
   EXPECT_LT((x.gyro_bias_B - sensors.errors.gyro_bias).norm(), 1.0e-3);
   EXPECT_LT(angle_error(), kGoodAngle);
+}
+
+TEST_P(FilterTest, WaitsForTheCalibrationOfTheInertialUnit) {
+  // GIVEN an FCU whose offsets are still to be found
+  sensors.path.rest = 10.0;
+  sensors.errors.accelerometer_bias = {0.0, 0.0, 0.3};
+  SensorFrame frame = sensors.next();
+  frame.status = FcuStatus{};
+  frame.status->imu_calibrated = false;
+  step(frame);
+  fly(4.0);
+  EXPECT_EQ(x.health, Health::kUninitialised);
+  // WHEN they are found, and the readings step
+  sensors.errors.accelerometer_bias.setZero();
+  frame = sensors.next();
+  frame.status = FcuStatus{};
+  step(frame);
+  fly(2.0);
+  // THEN the filter has begun, and nothing of the old offset is left
+  EXPECT_EQ(x.health, Health::kGood);
+  constexpr double kNoise = 0.05;  // m/s^2, of the mean over a second
+  EXPECT_NEAR(probed_vector("accelerometer_offset").z(), 0.0, kNoise);
 }
 
 TEST_P(FilterTest, FollowsAFlight) {

@@ -99,6 +99,15 @@ TEST(SensorFrameBuilderTest, PutsTheBatteryVoltageIntoTheStatus) {
   EXPECT_EQ(frame->status->rc_override, 0x3C0);
   EXPECT_DOUBLE_EQ(frame->status->battery_voltage, 23.5);
   EXPECT_EQ(frame->status->stamp, Time{7});
+  EXPECT_TRUE(frame->status->imu_calibrated);
+}
+
+TEST(SensorFrameBuilderTest, SaysWhenTheInertialUnitIsNotCalibrated) {
+  SensorFrameBuilder builder;
+  rosflight::RosflightStatus status;
+  status.error_code = 0x24;
+  builder.push({Time{0}, status});
+  EXPECT_FALSE(builder.push({Time{0}, imu_at(2500)})->status->imu_calibrated);
 }
 
 TEST(SensorFrameBuilderTest, RefusesSlowSensorsThatAreNotFinite) {

@@ -29,6 +29,17 @@ TEST(GroundWatchTest, SeesOneFlightFromLiftOffToLanding) {
   EXPECT_EQ(show(watch, truth, true, 2.0), (std::vector<std::string>{"landed"}));
 }
 
+TEST(GroundWatchTest, SeesALandingUnderAChatteringLandingGear) {
+  GroundWatch watch;
+  simulator::Truth truth;
+  show(watch, truth, false, 1.0);
+  std::vector<std::string> said;
+  for (int i = 0; i < 60; ++i) {
+    for (const std::string& word : show(watch, truth, i % 2 == 0, 0.02)) said.push_back(word);
+  }
+  EXPECT_EQ(said, (std::vector<std::string>{"landed"}));
+}
+
 TEST(GroundWatchTest, TakesAHopForNeitherFlightNorLanding) {
   GroundWatch watch;
   simulator::Truth truth;
