@@ -10,6 +10,7 @@
 #include "scenarios/bench/bench.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
 #include "scenarios/requirements/verdict_text.hpp"
+#include "simulator/render/solid_layer.hpp"
 
 namespace ironbird::scenarios {
 
@@ -57,7 +58,16 @@ void remove_old_products(const std::filesystem::path& folder) {
   }
 }
 
+/// Finds out before the flight, not after it, that it cannot be drawn.
+void check_scene(const RunJob& job) {
+  const std::filesystem::path& root = job.loaded->project_root;
+  const Scenario& scenario = job.loaded->scenario;
+  simulator::check_scene((root / scenario.vehicle_folder / "scene.xml").string(),
+                         (root / scenario.field).string());
+}
+
 RunResult carry_out(const RunJob& job, const autopilot::Modules& modules, const Terminal& terminal) {
+  if (job.products.video || job.products.snapshots) check_scene(job);
   make_folder(job.folder);
   remove_old_products(job.folder);
   bool interrupted = false;

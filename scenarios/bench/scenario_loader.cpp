@@ -101,13 +101,22 @@ const ModuleSettings* LoadedScenario::settings_of(const std::string& slot, const
   return found == modules.end() ? nullptr : &*found;
 }
 
+std::string LoadedScenario::own_place(const std::string& path, const std::string& place) const {
+  const std::string own = file.string() + ":";
+  if (place.starts_with(own)) return place;
+  const auto inside = std::find_if(places.begin(), places.end(), [&](const auto& p) {
+    return p.first.starts_with(path + ".") && p.second.starts_with(own);
+  });
+  return inside == places.end() ? place : inside->second;
+}
+
 ConfigError LoadedScenario::located(const std::invalid_argument& error) const {
   const std::string text = error.what();
   std::string path = text.substr(0, text.find_first_of(" :="));
   while (!path.empty()) {
     const auto found =
         std::find_if(places.begin(), places.end(), [&](const auto& p) { return p.first == path; });
-    if (found != places.end()) return ConfigError(found->second + ": " + text);
+    if (found != places.end()) return ConfigError(own_place(path, found->second) + ": " + text);
     const std::size_t cut = path.find_last_of(".[");
     path = cut == std::string::npos ? std::string() : path.substr(0, cut);
   }

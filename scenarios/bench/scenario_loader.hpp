@@ -46,6 +46,9 @@ struct LoadedScenario {
   /// The error with the place in the files that it is about, as far as its first words are a path of the
   /// configuration.
   ConfigError located(const std::invalid_argument& error) const;
+
+  /// Of a table that was read at `place`: where the scenario itself changes a value in it, when it does.
+  std::string own_place(const std::string& path, const std::string& place) const;
 };
 
 /// The folder above `file`, or else above the working folder, in which models/ lies; else the working folder.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -25,6 +26,14 @@ std::string scene_text(const std::string& vehicle, const std::string& field) {
          vehicle + "'/><include file='" + field + "'/></mujoco>";
 }
 
+/// The engine's message, which may have several lines, on one.
+std::string on_one_line(const char* message) {
+  std::istringstream words(message);
+  std::string line;
+  for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
 mjModel* load_model(const std::string& vehicle, const std::string& field) {
   const std::string text = scene_text(vehicle, field);
   auto files = std::make_unique<mjVFS>();
@@ -37,7 +46,8 @@ mjModel* load_model(const std::string& vehicle, const std::string& field) {
   mjModel* model = mj_loadXML(kRootName, files.get(), error.data(), static_cast<int>(error.size()));
   mj_deleteVFS(files.get());
   if (model == nullptr) {
-    throw std::invalid_argument("scene " + vehicle + " with field " + field + ": " + error.data());
+    throw std::invalid_argument("scene " + vehicle + " with field " + field + ": " +
+                                on_one_line(error.data()));
   }
   return model;
 }
@@ -58,6 +68,10 @@ struct Sphere {
 };
 
 }  // namespace
+
+void check_scene(const std::string& vehicle, const std::string& field) {
+  mj_deleteModel(load_model(vehicle, field));
+}
 
 struct SolidLayer::Engine {
   // Declared before whatever needs OpenGL, so that it is destroyed last.

@@ -79,6 +79,10 @@ struct SolidPicture {
   }
 };
 
+/// Reads the scene and throws it away: whether it, and every mesh and texture that it names, is there.
+/// @throws std::invalid_argument in one line when something is wrong
+void check_scene(const std::string& vehicle, const std::string& field);
+
 /// Draws the solid things of a scene, vehicle and obstacles but not the ground, with MuJoCo's renderer into
 /// an offscreen buffer of its own OpenGL context. The only file of this room that knows MuJoCo or its frame.
 class SolidLayer {

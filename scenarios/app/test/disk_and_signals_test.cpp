@@ -1,0 +1,85 @@
+// Disks that cannot be written to and runs that are interrupted, seen from outside.
+
+#include <gtest/gtest.h>
+
+#include "scenarios/app/test/program.hpp"
+#include "scenarios/record/log.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+constexpr const char* kMission =
+    "duration = \"8 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n[[check]]\nname = \"c\"\nhappens = "
+    "\"autopilot.flight.fcu.armed\"\n";
+constexpr const char* kEndless = "duration = \"20 h\"\n[[waypoint]]\np_N = [0, 0, -5]\n";
+
+class DiskTest : public ::testing::Test {
+ protected:
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_.write("short.toml", kMission);
+  const std::filesystem::path out_ = folder_ / "out";
+};
+
+TEST_F(DiskTest, RefusesAnOutputFolderThatCannotBeMade) {
+  const Said said = run_shell(kProgram + " run " + file_ + " --out /dev/null/out");
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_NE(said.text.find("/dev/null/out/short: cannot make the output folder"), std::string::npos)
+      << said.text;
+}
+
+TEST_F(DiskTest, RefusesALogThatCannotBeMade) {
+  std::filesystem::create_directories(out_ / "short/flight.mcap");  // a folder is in its place
+  const Said said = run_shell(kProgram + " run " + file_ + " --out " + out_.string());
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_NE(said.text.find("flight.mcap: cannot be made"), std::string::npos) << said.text;
+}
+
+TEST_F(DiskTest, SaysOnceThatTheDiskIsFullAndLeavesALogThatOpens) {
+  // 400 KiB for each file, and no signal when they are used up: like a full disk.
+  const Said said =
+      run_shell("trap '' XFSZ; ulimit -f 400; " + kProgram + " run " + file_ + " --out " + out_.string());
+  EXPECT_EQ(said.exit_code, 2) << said.text;
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_NE(said.text.find("flight.mcap: writing failed"), std::string::npos) << said.text;
+  EXPECT_FALSE(std::filesystem::exists(out_ / "short/verdict.json"));
+  const Log log = Log::read(out_ / "short/flight.mcap");
+  ASSERT_NE(log.topic("/truth/state"), nullptr);
+  EXPECT_GT(log.topic("/truth/state")->time().size(), 10U);
+}
+
+TEST_F(DiskTest, AFullDiskForTheVerdictIsAnErrorToo) {
+  std::filesystem::create_directories(out_ / "short");
+  std::filesystem::create_symlink("/dev/full", out_ / "short/verdict.json");
+  const Said said = run_shell(kProgram + " run " + file_ + " --no-log --out " + out_.string());
+  EXPECT_EQ(said.exit_code, 2) << said.text;
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_NE(said.text.find("verdict.json: cannot be written"), std::string::npos) << said.text;
+}
+
+class InterruptTest : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(InterruptTest, EndsTheRunWithALogThatOpens) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("endless.toml", kEndless);
+  const std::string out = (folder / "out").string();
+  const std::string log_file = out + "/endless/flight.mcap";
+  // The shell would let its background jobs ignore Ctrl-C; env sets that right.
+  const Said said = run_shell("env --default-signal=INT " + kProgram + " run " + file + " --out " + out +
+                              " & p=$!; for i in $(seq 200); do [ -s " + log_file +
+                              " ] && break; sleep 0.05; done; kill -" + GetParam() + " $p; wait $p");
+  EXPECT_EQ(said.exit_code, 130) << said.text;
+  EXPECT_NE(said.text.find("interrupted"), std::string::npos) << said.text;
+  const Log log = Log::read(log_file);
+  ASSERT_NE(log.topic("/truth/state"), nullptr);
+  EXPECT_GT(log.topic("/truth/state")->time().size(), 10U);
+  EXPECT_TRUE(std::filesystem::exists(out + "/endless/verdict.json"));
+  EXPECT_FALSE(std::filesystem::exists(out + "/endless/report.html"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, InterruptTest, ::testing::Values("INT", "TERM"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+}  // namespace
+}  // namespace ironbird::scenarios

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include <unistd.h>
+
+namespace ironbird::scenarios {
+
+/// What a command left behind: exit code and everything that it said.
+struct Said {
+  int exit_code = -1;
+  std::string text;
+
+  long lines() const { return std::count(text.begin(), text.end(), '\n'); }
+};
+
+/// Runs a command of the shell from the root of the tree, standard error included.
+inline Said run_shell(const std::string& command) {
+  const std::string whole = "cd '" IRONBIRD_SOURCE_DIR "' && export CI=true && { " + command + "; } 2>&1";
+  FILE* pipe = popen(whole.c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("cannot start a shell");
+  Said said;
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    said.text.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  said.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return said;
+}
+
+/// A folder of its own that goes when it does.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "ironbird_test_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  std::string text() const { return path_.string(); }
+
+  /// Writes a file. @return its path
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+    return (path_ / name).string();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline const std::string kProgram = IRONBIRD_PROGRAM;
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,71 @@
+// The promise of a run: same scenario and seed, same bytes; another seed, others.
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "autopilot/modules.hpp"
+#include "scenarios/bench/bench.hpp"
+#include "scenarios/record/log.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+class SameBytesTest : public ::testing::Test {
+ protected:
+  SameBytesTest() { std::filesystem::create_directories(folder_); }
+  ~SameBytesTest() override { std::filesystem::remove_all(folder_); }
+
+  /// Flies the first 12 s, take-off included. @return the log's bytes
+  std::string fly(std::uint64_t seed, int seconds_until_stop = 1000) {
+    const Overrides overrides{{{"duration", "12"}}, seed};
+    const LoadedScenario loaded = load_scenario(scenario_, overrides, modules_);
+    BenchOptions options;
+    options.log_file = log_;
+    options.on_progress = [&](const Progress& progress) { return progress.simulated < seconds_until_stop; };
+    Bench bench(loaded, modules_, options);
+    bench.fly();
+    interrupted_ = bench.interrupted();
+    std::ifstream stream(log_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  }
+
+  const std::filesystem::path scenario_ =
+      std::filesystem::path(IRONBIRD_SOURCE_DIR) / "scenarios/library/paper/three_waypoints.toml";
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("ironbird_same_bytes_" + std::to_string(getpid()));
+  const std::filesystem::path log_ = folder_ / "flight.mcap";
+  const autopilot::Modules modules_ = autopilot::standard_modules();
+  bool interrupted_ = false;
+};
+
+TEST_F(SameBytesTest, TheSameSeedGivesTheSameBytes) {
+  const std::string first = fly(3);
+  EXPECT_GT(first.size(), 100000U);
+  EXPECT_TRUE(first == fly(3));
+}
+
+TEST_F(SameBytesTest, AnotherSeedGivesOthers) {
+  EXPECT_FALSE(fly(3) == fly(4));
+}
+
+TEST_F(SameBytesTest, AnInterruptedRunLeavesALogThatOpensAndIsTheBeginningOfTheWholeOne) {
+  fly(3);
+  const Log whole = Log::read(log_);
+  fly(3, 6);
+  EXPECT_TRUE(interrupted_);
+  const Log part = Log::read(log_);
+  const auto& times = part.topic("/truth/state")->time();
+  const auto& all = whole.topic("/truth/state")->time();
+  ASSERT_GT(times.size(), 400U);
+  ASSERT_LT(times.size(), all.size());
+  EXPECT_EQ(times.back(), all[times.size() - 1]);
+}
+
+}  // namespace
+}  // namespace ironbird::scenarios
