@@ -50,20 +50,20 @@ void tell(const Verdict& verdict, const Terminal& terminal) {
   std::fputs(text.c_str(), stderr);
 }
 
-/// What an earlier run left in the folder must not be taken for this one's.
-void remove_old_products(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  for (const char* name : {"verdict.json", "report.html", "flight.mcap", "video.mp4"}) {
-    std::filesystem::remove(folder / name, ignored);
-  }
-}
-
 /// Finds out before the flight, not after it, that it cannot be drawn.
 void check_scene(const RunJob& job) {
   const std::filesystem::path& root = job.loaded->project_root;
   const Scenario& scenario = job.loaded->scenario;
   simulator::check_scene((root / scenario.vehicle_folder / "scene.xml").string(),
                          (root / scenario.field).string());
+}
+
+/// What an earlier run left in the folder must not be taken for this one's.
+void remove_old_products(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {"verdict.json", "report.html", "flight.mcap", "video.mp4"}) {
+    std::filesystem::remove(folder / name, ignored);
+  }
 }
 
 RunResult carry_out(const RunJob& job, const autopilot::Modules& modules, const Terminal& terminal) {

@@ -29,7 +29,7 @@ TEST_F(DiskTest, RefusesAnOutputFolderThatCannotBeMade) {
 }
 
 TEST_F(DiskTest, RefusesALogThatCannotBeMade) {
-  std::filesystem::create_directories(out_ / "short/flight.mcap");  // a folder is in its place
+  std::filesystem::create_directories(out_ / "short/flight.mcap/in_its_place");
   const Said said = run_shell(kProgram + " run " + file_ + " --out " + out_.string());
   EXPECT_EQ(said.exit_code, 2);
   EXPECT_EQ(said.lines(), 1) << said.text;
@@ -49,9 +49,8 @@ TEST_F(DiskTest, SaysOnceThatTheDiskIsFullAndLeavesALogThatOpens) {
   EXPECT_GT(log.topic("/truth/state")->time().size(), 10U);
 }
 
-TEST_F(DiskTest, AFullDiskForTheVerdictIsAnErrorToo) {
-  std::filesystem::create_directories(out_ / "short");
-  std::filesystem::create_symlink("/dev/full", out_ / "short/verdict.json");
+TEST_F(DiskTest, AVerdictThatCannotBeWrittenIsAnErrorToo) {
+  std::filesystem::create_directories(out_ / "short/verdict.json/in_its_place");
   const Said said = run_shell(kProgram + " run " + file_ + " --no-log --out " + out_.string());
   EXPECT_EQ(said.exit_code, 2) << said.text;
   EXPECT_EQ(said.lines(), 1) << said.text;
