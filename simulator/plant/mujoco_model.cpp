@@ -13,17 +13,22 @@ namespace {
 
 constexpr int kVehicle = 1;  // the body after the world's
 constexpr const char* kFileName = "vehicle.xml";
+constexpr std::size_t kRowsOfContact = 3;   // of the solver: normal and two tangents
+constexpr std::size_t kContactsOfBody = 8;  // between two boxes, at the most
 
 /// The beginning of a model. No option is left to a default that could bring in a force which is not ours.
 /// @param option  further attributes of the options
 /// @param flag    further flags
-std::string head(const std::string& option, const std::string& flag) {
+/// @param contacts  the most there can be at once: the engine's own guess takes megabytes
+std::string head(const std::string& option, const std::string& flag, std::size_t contacts) {
+  const std::string rows = std::to_string(kRowsOfContact * contacts);
   return R"(<mujoco model="vehicle"><compiler angle="radian" inertiafromgeom="false"/>)"
          R"(<option integrator="RK4" density="0" viscosity="0" )" +
          option +
          R"(><flag equality="disable" frictionloss="disable" limit="disable" passive="disable" )"
          R"(clampctrl="disable" sensor="disable" )" +
-         flag + R"(/></option><size nuserdata="1"/><worldbody>)";
+         flag + R"(/></option><size nuserdata="1" nconmax=")" + std::to_string(contacts) + R"(" njmax=")" +
+         rows + R"("/><worldbody>)";
 }
 
 constexpr const char* kBody = R"(<body><freejoint/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>)";
@@ -129,13 +134,15 @@ mjModel* load(const std::string& mjcf) {
 }  // namespace
 
 std::string flight_model() {
-  return head("", R"(constraint="disable" contact="disable")") + kBody + kBodyEnd + kEnd;
+  return head("", R"(constraint="disable" contact="disable")", 1) + kBody + kBodyEnd + kEnd;
 }
 
 std::string contact_model(const ContactParams& vehicle, const FieldParams& field) {
   std::ostringstream text = exact_text();
   // Soft contacts creep under a steady side force; the extra iterations hold them.
-  text << head(R"(cone="elliptic" noslip_iterations="5" collision="predefined")", "");
+  const std::size_t things = field.boxes.size() + 1;
+  text << head(R"(cone="elliptic" noslip_iterations="5" collision="predefined")", "",
+               things * (vehicle.feet.size() + kContactsOfBody));
   const std::size_t obstacles = write_obstacles(text, field);
   text << kBody;
   const std::size_t parts = write_vehicle(text, vehicle);
