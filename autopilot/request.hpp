@@ -44,7 +44,7 @@ using RouteRequest =
 
 /// Takes off once armed.
 struct TakeOff {};
-/// Descends here and disarms on the ground.
+/// Descends here; on the ground no thrust is asked for until the pilot disarms, which the companion cannot.
 struct Land {};
 /// Sets one parameter.
 struct SetParameter {

@@ -16,7 +16,7 @@ namespace ironbird::autopilot {
 enum class WaypointKind : std::uint8_t {
   kGoto,  ///< fly there and on
   kHold,  ///< fly there and stay for `hold_time`, or until released
-  kLand   ///< fly there, descend and disarm on the ground
+  kLand   ///< fly there and descend; on the ground no thrust until the pilot disarms
 };
 
 constexpr std::array<std::pair<WaypointKind, std::string_view>, 3> enumerators(WaypointKind) {

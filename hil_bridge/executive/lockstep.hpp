@@ -29,7 +29,7 @@ class Lockstep {
   /// Frames that the autopilot was given so far.
   std::uint64_t frames() const { return frames_; }
 
-  /// The frame of this tick was the last one's successor: the autopilot worked in the last tick.
+  /// The autopilot worked in the last tick.
   bool stepped() const { return stepped_; }
 
   /// Texts that the FCU sent in the last tick.

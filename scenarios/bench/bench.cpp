@@ -163,7 +163,7 @@ Verdict Bench::fly() {
     const Time now = tick();
     if (now >= next_progress && options_.on_progress) {
       next_progress += kProgressPeriod;
-      if (!options_.on_progress({to_seconds(now), scenario_.duration, ""})) {
+      if (!options_.on_progress({to_seconds(now), scenario_.duration})) {
         interrupted_ = true;
         break;
       }

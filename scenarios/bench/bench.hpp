@@ -28,7 +28,6 @@ namespace ironbird::scenarios {
 struct Progress {
   double simulated = 0.0;  ///< s
   double duration = 0.0;   ///< s, at the most
-  std::string phase;
 };
 
 /// What a run does beside flying.
