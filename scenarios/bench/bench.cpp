@@ -94,7 +94,10 @@ void Bench::wire_autopilot(const autopilot::Modules& modules) {
 }
 
 void Bench::wire_record() {
-  recorder_ = std::make_unique<Recorder>(options_.log_file);
+  RecorderOptions layout;
+  layout.file.journal = scenario_.record.journal;
+  layout.file.compress = scenario_.record.compress;
+  recorder_ = std::make_unique<Recorder>(options_.log_file, layout);
   recorder_->metadata("run", {{"title", scenario_.title},
                               {"source", scenario_.source},
                               {"scenario", loaded_.name},

@@ -236,6 +236,8 @@ struct RecordConfig {
   double state_period = 0.01;
   double signal_period = 0.02;
   bool frames = true;
+  bool journal = false;
+  bool compress = false;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -243,6 +245,8 @@ struct RecordConfig {
     visit("signal_period", self.signal_period, "s", "of trajectory, setpoint, command and telemetry", 0.0025,
           10.0);
     visit("frames", self.frames, "1", "every sensor frame and every command, which an exact replay needs");
+    visit("journal", self.journal, "1", "write message by message, so that a crash costs 0.1 s of the log");
+    visit("compress", self.compress, "1", "compress the log with zstd; not with journal");
   }
 };
 

@@ -68,12 +68,16 @@ class PanelMaker {
     panel_.strips.push_back(std::move(strip));
   }
 
+  /// What the panel says when it stays empty although the log has what it is made of.
+  void when_empty(std::string reason) { empty_ = std::move(reason); }
+
   plot::Panel done() && {
     if (panel_.series.empty()) panel_.strips.clear();
     std::sort(missing_.begin(), missing_.end());
     missing_.erase(std::unique(missing_.begin(), missing_.end()), missing_.end());
     panel_.missing = "not in the log:";
     for (const std::string& topic : missing_) panel_.missing += " " + topic;
+    if (!empty_.empty()) panel_.missing = empty_;
     return std::move(panel_);
   }
 
@@ -81,6 +85,7 @@ class PanelMaker {
   const std::vector<ReportRun>& runs_;
   plot::Panel panel_;
   std::vector<std::string> missing_;
+  std::string empty_;
 };
 
 plot::Panel axis_panel(const std::vector<ReportRun>& runs, const char* title, const char* axis) {
@@ -254,7 +259,9 @@ plot::TimeFrame time_frame(const std::vector<ReportRun>& runs) {
   if (runs.empty()) return frame;
   frame.stretches = phases_of(runs.front());
   for (const RunEvent& event : runs.front().events()) {
+    // Phases have their band; what the FCU says and pictures taken are in the table, not on every axis.
     if (event.kind == "phase" || event.kind == "health" || event.kind == "arming") continue;
+    if (event.kind == "fcu" || event.kind == "snapshot") continue;
     const bool is_fault = event.kind.starts_with("fault") || event.kind == "gust";
     const std::string ending = event.kind.ends_with("_end") ? " ends" : "";
     frame.marks.push_back(
@@ -304,6 +311,10 @@ plot::TimeStack attitude_and_speed(const std::vector<ReportRun>& runs) {
 plot::TimeStack path_errors(const std::vector<ReportRun>& runs) {
   plot::TimeStack stack{"Distance from the planned path", {}, 1180.0, 120.0};
   PanelMaker maker(runs, "distance to the waypoints' polyline, first to last waypoint", "m", 0.02);
+  const bool has_routes = std::any_of(runs.begin(), runs.end(), [](const ReportRun& run) {
+    return !waypoints_of(run).empty() && !run.time(kEstimateTopic).empty();
+  });
+  if (has_routes) maker.when_empty("no leg between two waypoints was flown");
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::string needed = ", /autopilot/route, /autopilot/trajectory";
     maker.add(Role::kTruth, i, path_distance(runs[i], kTruthTopic), kTruthTopic + needed);

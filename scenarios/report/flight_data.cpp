@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -16,6 +19,7 @@ namespace {
 constexpr const char* kTruth = "/truth/state";
 constexpr const char* kEstimate = "/autopilot/estimate";
 constexpr const char* kTrajectory = "/autopilot/trajectory";
+constexpr const char* kFlight = "/autopilot/flight";
 constexpr const char* kRoute = "/autopilot/route";
 constexpr std::array<const char*, 3> kAxes{".x", ".y", ".z"};
 
@@ -78,15 +82,102 @@ std::vector<Eigen::Quaterniond> attitudes_of(const ReportRun& run, std::string_v
   return out;
 }
 
-autopilot::Route route_of(const ReportRun& run) {
+/// A route and when it came into force, s.
+struct PlannedRoute {
+  double since = 0.0;
   autopilot::Route route;
-  route.cyclic = is_cyclic(run);
-  for (const auto& p : waypoints_of(run)) {
+};
+
+std::vector<autopilot::Waypoint> waypoints_at(const ReportRun& run, std::size_t message) {
+  std::vector<autopilot::Waypoint> out;
+  for (int i = 0;; ++i) {
+    const std::string stem = "waypoints[" + std::to_string(i) + "].p_N";
     autopilot::Waypoint waypoint;
-    waypoint.p_N = Eigen::Vector3d(p[0], p[1], p[2]);
-    route.waypoints.push_back(waypoint);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::vector<double>& column = run.column(kRoute, stem + kAxes[static_cast<std::size_t>(axis)]);
+      if (column.size() <= message || !std::isfinite(column[message])) return out;
+      waypoint.p_N[axis] = column[message];
+    }
+    out.push_back(waypoint);
   }
-  return route;
+}
+
+std::vector<PlannedRoute> routes_of(const ReportRun& run) {
+  std::vector<PlannedRoute> out;
+  const std::vector<double>& time = run.time(kRoute);
+  const std::vector<double>& cyclic = run.column(kRoute, "cyclic");
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    autopilot::Route route;
+    route.cyclic = k < cyclic.size() && cyclic[k] == 1.0;
+    route.waypoints = waypoints_at(run, k);
+    out.push_back({time[k], std::move(route)});
+  }
+  return out;
+}
+
+/// A column of numbers that hold until the next message; `otherwise` before the first and without any.
+class Held {
+ public:
+  Held(const ReportRun& run, const char* topic, const char* field, double otherwise = 0.0)
+      : time_(run.time(topic)), value_(run.column(topic, field)), otherwise_(otherwise) {}
+
+  /// @param time  s, not before that of the call before
+  double at(double time) {
+    const std::size_t size = std::min(time_.size(), value_.size());
+    while (next_ < size && time_[next_] <= time) ++next_;
+    return next_ == 0 ? otherwise_ : value_[next_ - 1];
+  }
+
+ private:
+  const std::vector<double>& time_;
+  const std::vector<double>& value_;
+  double otherwise_;
+  std::size_t next_ = 0;
+};
+
+/// Whether a moment counts for the path error, by the rule of RunMetrics: the companion flies, a waypoint is
+/// behind it and another before it.
+class LegUnderWay {
+ public:
+  explicit LegUnderWay(const ReportRun& run) : run_(run) {}
+
+  bool at(double time, const autopilot::Route& route) {
+    const bool companion_flies = phase_.at(time) == static_cast<double>(autopilot::FlightPhase::kOffboard) &&
+                                 armed_.at(time) == 1.0 && failsafe_.at(time) == 0.0 &&
+                                 override_.at(time) == 0.0;
+    const double reached = reached_.at(time);
+    const bool last_reached = !route.cyclic && reached >= static_cast<double>(route.waypoints.size());
+    const bool is_over = finished_.at(time) == 1.0 || landing_.at(time) == 1.0;
+    return companion_flies && valid_.at(time) == 1.0 && reached >= 1.0 && !last_reached && !is_over;
+  }
+
+ private:
+  const ReportRun& run_;
+  Held phase_{run_, kFlight, "phase"};
+  Held armed_{run_, kFlight, "fcu.armed"};
+  Held failsafe_{run_, kFlight, "fcu.failsafe"};
+  Held override_{run_, kFlight, "fcu.rc_override"};
+  Held valid_{run_, kTrajectory, "valid"};
+  Held reached_{run_, kTrajectory, "reached"};
+  Held finished_{run_, kTrajectory, "finished"};
+  Held landing_{run_, kTrajectory, "landing"};
+};
+
+/// The route that was in force for the longest time of those that have waypoints: what the flight was about,
+/// whatever came before and after it, such as the way home.
+autopilot::Route main_route(const ReportRun& run) {
+  const std::vector<PlannedRoute> routes = routes_of(run);
+  const std::vector<double>& flown = run.time(kTrajectory);
+  const double end = flown.empty() ? 0.0 : flown.back();
+  autopilot::Route out;
+  double longest = -1.0;
+  for (std::size_t k = 0; k < routes.size(); ++k) {
+    const double until = k + 1 < routes.size() ? routes[k + 1].since : std::max(end, routes[k].since);
+    if (routes[k].route.waypoints.empty() || until - routes[k].since <= longest) continue;
+    longest = until - routes[k].since;
+    out = routes[k].route;
+  }
+  return out;
 }
 
 }  // namespace
@@ -173,40 +264,37 @@ Curve broken_at_wraps(Curve curve) {
 
 std::vector<std::array<double, 3>> waypoints_of(const ReportRun& run) {
   std::vector<std::array<double, 3>> out;
-  const std::size_t messages = run.time(kRoute).size();
-  for (std::size_t k = messages; k > 0 && out.empty(); --k) {
-    for (int i = 0;; ++i) {
-      const std::string stem = "waypoints[" + std::to_string(i) + "].p_N";
-      const std::vector<double>& x = run.column(kRoute, stem + ".x");
-      if (x.size() < k || !std::isfinite(x[k - 1])) break;
-      const std::vector<double>& y = run.column(kRoute, stem + ".y");
-      const std::vector<double>& z = run.column(kRoute, stem + ".z");
-      if (y.size() < k || z.size() < k) break;
-      out.push_back({x[k - 1], y[k - 1], z[k - 1]});
-    }
+  for (const autopilot::Waypoint& waypoint : main_route(run).waypoints) {
+    out.push_back({waypoint.p_N.x(), waypoint.p_N.y(), waypoint.p_N.z()});
   }
   return out;
 }
 
 bool is_cyclic(const ReportRun& run) {
-  const std::vector<double>& cyclic = run.column(kRoute, "cyclic");
-  return !cyclic.empty() && cyclic.back() == 1.0;
+  return main_route(run).cyclic;
 }
 
 Curve path_distance(const ReportRun& run, std::string_view topic) {
   Curve out;
-  const autopilot::Route route = route_of(run);
+  const std::vector<PlannedRoute> routes = routes_of(run);
   const Curves p = vector_of(run, topic, "p_NB_N");
-  const Curve reached = curve_of(run, kTrajectory, "reached");
-  if (route.waypoints.empty() || p[0].empty() || p[1].empty() || p[2].empty() || reached.empty()) return out;
-  const auto all = static_cast<double>(route.waypoints.size());
-  std::size_t next = 0;
+  if (routes.empty() || p[0].empty() || p[1].empty() || p[2].empty()) return out;
+  LegUnderWay leg_under_way(run);
+  std::size_t at = 0;
+  bool interrupted = false;
   for (std::size_t k = 0; k < p[0].time.size(); ++k) {
-    while (next + 1 < reached.time.size() && reached.time[next + 1] <= p[0].time[k]) ++next;
-    const double count = reached.value[next];
-    if (count < 1.0 || (!route.cyclic && count >= all)) continue;
-    out.time.push_back(p[0].time[k]);
-    out.value.push_back(to_polyline({p[0].value[k], p[1].value[k], p[2].value[k]}, route).norm());
+    const double now = p[0].time[k];
+    while (at + 1 < routes.size() && routes[at + 1].since <= now) ++at;
+    if (!leg_under_way.at(now, routes[at].route)) {
+      interrupted = !out.time.empty();
+      continue;
+    }
+    if (std::exchange(interrupted, false)) {
+      out.time.push_back(now);
+      out.value.push_back(std::numeric_limits<double>::quiet_NaN());
+    }
+    out.time.push_back(now);
+    out.value.push_back(to_polyline({p[0].value[k], p[1].value[k], p[2].value[k]}, routes[at].route).norm());
   }
   return out;
 }

@@ -42,14 +42,14 @@ Curve scaled(Curve curve, double factor);
 /// Puts a gap where an angle jumps by more than half a turn, so that no line crosses the plot. Degrees.
 Curve broken_at_wraps(Curve curve);
 
-/// The last route in the log that has waypoints: its points in N, closed when it is cyclic.
+/// Of the routes in the log that have waypoints, the one that was in force longest: its points in N.
 std::vector<std::array<double, 3>> waypoints_of(const ReportRun& run);
 
-/// True when the last route in the log is cyclic.
+/// True when that route is cyclic.
 bool is_cyclic(const ReportRun& run);
 
-/// Distance of the points of a topic to the waypoints' polyline from the first waypoint reached until the
-/// last, m.
+/// Distance of the points of a topic to the polyline of the waypoints in force at their time, from the first
+/// waypoint reached until the last, m; broken where no waypoint was under way.
 Curve path_distance(const ReportRun& run, std::string_view topic);
 
 }  // namespace ironbird::scenarios

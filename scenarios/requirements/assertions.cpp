@@ -146,6 +146,9 @@ std::unique_ptr<Assertion> make_metric_bound(bool below, const CheckConfig& conf
                                    [&](const Metric& candidate) { return candidate.name == config.metric; });
   if (metric == known.end())
     throw std::invalid_argument("metric = \"" + config.metric + "\": there is no such metric");
+  if (metric->name == "real_time_factor") {
+    throw std::invalid_argument("metric = \"real_time_factor\" depends on the machine, no verdict may");
+  }
   const std::string key = below ? "metric_below" : "metric_above";
   const double bound = read_quantity(below ? *config.metric_below : *config.metric_above, metric->unit, key);
   return std::make_unique<MetricBound>(config.metric, bound, below);
@@ -169,6 +172,27 @@ std::unique_ptr<Assertion> make_without_subject(const std::string& kind, const C
   return make_metric_bound(kind == "metric_below", config);
 }
 
+/// The keys that a kind takes besides its own.
+bool takes(const std::string& kind, const std::string& key) {
+  if (key == "metric") return kind.starts_with("metric_");
+  if (key == "after" || key == "until") return !kind.starts_with("metric_");
+  if (key == "tolerated_for") return kind.starts_with("stays_");
+  const bool has_target = kind == "final_below" || kind == "settles" || kind == "reaches";
+  return has_target || (key == "to" && kind == "overshoot_below");
+}
+
+void refuse_unused(const std::string& kind, const CheckConfig& config) {
+  const std::array<std::pair<const char*, bool>, 6> given{{{"after", !config.after.empty()},
+                                                           {"until", !config.until.empty()},
+                                                           {"to", !config.to.empty()},
+                                                           {"to_point", config.to_point.has_value()},
+                                                           {"tolerated_for", !config.tolerated_for.empty()},
+                                                           {"metric", !config.metric.empty()}}};
+  for (const auto& [key, is_given] : given) {
+    if (is_given && !takes(kind, key)) throw std::invalid_argument(kind + " does not take " + key);
+  }
+}
+
 bool has_subject(const std::string& kind) {
   return kind != "order_of_events" && kind != "happens" && kind != "never_happens" &&
          !kind.starts_with("metric_");
@@ -190,6 +214,7 @@ std::string kind_of(const CheckConfig& config) {
 
 std::unique_ptr<Assertion> make_assertion(const std::string& kind, const CheckConfig& config,
                                           const CheckContext& context) {
+  refuse_unused(kind, config);
   if (!has_subject(kind)) return make_without_subject(kind, config, *context.signals);
   const Reader read{config, context, subject_of(config, *context.signals)};
   if (kind == "stays_within_tube") return make_tube(read);

@@ -44,29 +44,50 @@ void ConditionAssertion::judge(const RunFacts&, CheckResult& result) const {
 
 void OrderOfEvents::judge(const RunFacts& facts, CheckResult& result) const {
   result.unit = "s";
-  result.margin = std::numeric_limits<double>::infinity();
-  double previous = from_.value_or(0.0);
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    const std::optional<double> next = facts.timeline.first(names_[i], previous);
-    if (!next) {
-      const std::optional<double> earlier = facts.timeline.first(names_[i]);
-      result.outcome = Outcome::kFail;
-      result.margin = earlier ? *earlier - previous : kNone;
-      result.time = earlier.value_or(kNone);
-      result.explanation = earlier ? names_[i] + " came at " + with_unit(*earlier, "s") + ", before " +
-                                         (i == 0 ? std::string("the window") : names_[i - 1])
-                                   : names_[i] + " never happened";
-      return;
-    }
-    if (i > 0 && *next - previous < result.margin) {
-      result.margin = *next - previous;
-      result.time = *next;
-    }
-    result.explanation += (i == 0 ? "" : ", ") + names_[i] + " at " + with_unit(*next, "s");
-    previous = *next;
+  result.margin = result.time = kNone;
+  if (!from_) {
+    result.explanation = "the run ended before " + names_.front() + " could be waited for";
+    return;
   }
-  if (names_.size() < 2) result.margin = result.time = kNone;
+  double previous = *from_;
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const std::optional<std::size_t> next = facts.timeline.find(names_[i], previous, used);
+    if (!next || facts.timeline.events()[*next].time > until_)
+      return fail(facts.timeline, i, previous, result);
+    const double time = facts.timeline.events()[*next].time;
+    if (i > 0 && !(time - previous >= result.margin)) {
+      result.margin = time - previous;
+      result.time = time;
+    }
+    result.explanation += (i == 0 ? "" : ", ") + names_[i] + " at " + with_unit(time, "s");
+    previous = time;
+    used.push_back(*next);
+  }
   result.outcome = Outcome::kPass;
+}
+
+void OrderOfEvents::fail(const Timeline& timeline, std::size_t name, double previous,
+                         CheckResult& result) const {
+  result.outcome = Outcome::kFail;
+  result.margin = result.time = kNone;
+  const std::optional<std::size_t> later = timeline.find(names_[name], previous);
+  const std::optional<double> any = later ? timeline.events()[*later].time : timeline.first(names_[name]);
+  if (!any) {
+    result.explanation = names_[name] + " never happened";
+    return;
+  }
+  result.time = *any;
+  result.explanation = names_[name] + " came at " + with_unit(*any, "s");
+  if (*any > until_) {
+    result.margin = until_ - *any;
+    result.explanation += ", after the end of the window at " + with_unit(until_, "s");
+  } else if (*any < previous) {
+    result.margin = *any - previous;
+    result.explanation += ", before " + (name == 0 ? std::string("the window") : names_[name - 1]);
+  } else {
+    result.explanation += ", but not once more after that";
+  }
 }
 
 void MetricBound::judge(const RunFacts& facts, CheckResult& result) const {

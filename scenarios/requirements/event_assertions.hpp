@@ -29,18 +29,23 @@ class ConditionAssertion final : public Assertion {
   std::optional<double> broken_at_;
 };
 
-/// order_of_events: each event once more after the one before. The margin is the least time between two.
+/// order_of_events: each event once more after the one before, all inside the window; an event serves once.
+/// The margin is the least time between two.
 class OrderOfEvents final : public Assertion {
  public:
   explicit OrderOfEvents(std::vector<std::string> names) : names_(std::move(names)) {}
   void sample(double time) override {
     if (!from_) from_ = time;
+    until_ = time;
   }
   void judge(const RunFacts& facts, CheckResult& result) const override;
 
  private:
   std::vector<std::string> names_;
   std::optional<double> from_;
+  double until_ = 0.0;
+
+  void fail(const Timeline& timeline, std::size_t name, double previous, CheckResult& result) const;
 };
 
 /// metric_below and metric_above.

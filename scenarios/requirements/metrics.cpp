@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -19,8 +20,18 @@ void add(std::array<MeanSquare, 3>& axes, const Eigen::Vector3d& error) {
   for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].add(error[i]);
 }
 
-double norm(double a, double b, double c = 0.0) {
+double norm(double a, double b, double c) {
   return std::sqrt(a * a + b * b + c * c);
+}
+
+/// The greatest; NaN when any is.
+double worst(std::initializer_list<double> values) {
+  double out = -std::numeric_limits<double>::infinity();
+  for (const double value : values) {
+    if (!(value <= out)) out = value;
+    if (std::isnan(value)) return value;
+  }
+  return out;
 }
 
 double seconds_of(std::chrono::nanoseconds time) {
@@ -74,8 +85,8 @@ void RunMetrics::sample(Time now) {
   const simulator::Truth* truth = sources_.truth;
   const Eigen::Quaterniond& q_NB = truth != nullptr ? truth->q_NB : pilot.estimate.q_NB;
   const double speed = truth != nullptr ? truth->v_NB_N.norm() : pilot.estimate.v_NB_B.norm();
-  max_tilt_ = std::max(max_tilt_, tilt_of(q_NB));
-  max_speed_ = std::max(max_speed_, speed);
+  max_tilt_ = worst({max_tilt_, tilt_of(q_NB)});
+  max_speed_ = worst({max_speed_, speed});
   const bool on_ground =
       truth != nullptr ? truth->in_contact : pilot.flight.phase == autopilot::FlightPhase::kDisarmed;
   if (pilot.flight.fcu.armed && !on_ground) {
@@ -134,18 +145,21 @@ std::vector<Metric> RunMetrics::results() const {
     out.push_back({name, value, unit, meaning});
   };
   append("estimate_position_rms_m", norm(north, east, down), "m", "position error, 3-D" + airborne);
-  append("estimate_horizontal_rms_m", norm(north, east), "m", "horizontal position error" + airborne);
+  append("estimate_horizontal_rms_m", worst({north, east}), "m",
+         "the worse of position error north and east" + airborne);
   append("estimate_north_rms_m", north, "m", "position error north" + airborne);
   append("estimate_east_rms_m", east, "m", "position error east" + airborne);
   append("estimate_down_rms_m", down, "m", "position error down" + airborne);
-  append("estimate_velocity_rms_mps", norm(forward, right, below), "m/s",
+  append("estimate_velocity_rms_mps", worst({forward, right, below}), "m/s",
+         "the worst axis of the body velocity error" + airborne);
+  append("estimate_velocity_total_rms_mps", norm(forward, right, below), "m/s",
          "body velocity error, 3-D" + airborne);
   append("estimate_velocity_forward_rms_mps", forward, "m/s", "body velocity error, forward" + airborne);
   append("estimate_velocity_right_rms_mps", right, "m/s", "body velocity error, right" + airborne);
   append("estimate_velocity_down_rms_mps", below, "m/s", "body velocity error, down" + airborne);
   append("estimate_attitude_rms_deg", attitude_.root() * kDegrees, "deg",
          "angle of the attitude error" + airborne);
-  append("estimate_roll_pitch_rms_deg", angles_[0].empty() ? kNone : std::max(roll, pitch), "deg",
+  append("estimate_roll_pitch_rms_deg", worst({roll, pitch}), "deg",
          "the worse of roll and pitch" + airborne);
   append("estimate_roll_rms_deg", roll, "deg", "roll error" + airborne);
   append("estimate_pitch_rms_deg", pitch, "deg", "pitch error" + airborne);

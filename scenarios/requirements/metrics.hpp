@@ -50,8 +50,9 @@ class MeanSquare {
 /// time the first waypoint is reached until the last is; ROScopter paper, results. A cyclic route has no last
 /// waypoint: the polyline is closed and counts until the end. Tracking error: distance to where the
 /// trajectory is at the same time, while the companion flies. Estimation error: while armed and off the
-/// ground; needs the truth. All are sampled at one fixed rate, so that the ticks of a run do not weigh on its
-/// figures.
+/// ground; needs the truth; of several axes the worst one counts, except where a name says `total` or
+/// `position`. The polyline is that of the route in force, the way home included. All are sampled at one
+/// fixed rate, so that the ticks of a run do not weigh on its figures.
 class RunMetrics {
  public:
   using Time = std::chrono::nanoseconds;

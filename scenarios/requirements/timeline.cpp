@@ -1,5 +1,8 @@
 #include "scenarios/requirements/timeline.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace ironbird::scenarios {
 
 namespace {
@@ -12,19 +15,45 @@ std::string name_of(Enum value) {
   return std::to_string(static_cast<int>(value));
 }
 
+/// Wishes, switches, texts and pictures: that they bear the name of something does not mean that it happened.
+bool only_speaks(const RunEvent& event) {
+  return event.kind == "request" || event.kind == "refused" || event.kind == "pilot" || event.kind == "fcu" ||
+         event.kind == "snapshot";
+}
+
+/// True for the names that the flight itself gives to what happens in it.
+bool is_of_the_flight(std::string_view name) {
+  const auto is_one_of = [name](auto names) {
+    return std::any_of(names.begin(), names.end(), [name](const auto& one) { return one.second == name; });
+  };
+  constexpr std::array<std::string_view, 5> kOthers{"armed", "unarmed", "route_finished", "lifted_off",
+                                                    "landed"};
+  return is_one_of(enumerators(autopilot::FlightPhase{})) || is_one_of(enumerators(autopilot::Health{})) ||
+         name.starts_with("waypoint_") || std::find(kOthers.begin(), kOthers.end(), name) != kOthers.end();
+}
+
 bool is_called(const RunEvent& event, std::string_view name) {
-  if (name == event.text || name == event.kind) return true;
+  if (name == event.kind) return true;
+  if (name == event.text) return event.kind != "refused" && !(only_speaks(event) && is_of_the_flight(name));
   return name.size() == event.kind.size() + 1 + event.text.size() && name.starts_with(event.kind) &&
          name[event.kind.size()] == ':' && name.ends_with(event.text);
 }
 
 }  // namespace
 
-std::optional<double> Timeline::first(std::string_view name, double from) const {
-  for (const RunEvent& event : events_) {
-    if (event.time >= from && is_called(event, name)) return event.time;
+std::optional<std::size_t> Timeline::find(std::string_view name, double from,
+                                          const std::vector<std::size_t>& but_not) const {
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    if (events_[i].time < from || !is_called(events_[i], name)) continue;
+    if (std::find(but_not.begin(), but_not.end(), i) == but_not.end()) return i;
   }
   return std::nullopt;
+}
+
+std::optional<double> Timeline::first(std::string_view name, double from) const {
+  const std::optional<std::size_t> found = find(name, from);
+  if (!found) return std::nullopt;
+  return events_[*found].time;
 }
 
 void EventDetector::report(double time, Timeline& timeline) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -25,7 +26,9 @@ struct RunEvent {
 };
 
 /// The events of a run in order of time. An event is called by its text (`offboard`), by its kind (`fault`),
-/// or, where the text is not enough, by both (`fault_end:gnss_dropout`).
+/// or, where the text is not enough, by both (`fault_end:gnss_dropout`). The names of the flight's own
+/// events, `take_off` or `landing`, mean just these: that somebody asked for a take-off is
+/// `request:take_off`. A request that was refused is found by its kind only.
 class Timeline {
  public:
   void add(double time, std::string kind, std::string text) {
@@ -33,6 +36,11 @@ class Timeline {
   }
 
   const std::vector<RunEvent>& events() const { return events_; }
+
+  /// Number of the first event of this name not before `from`, s, that is not one of `but_not`; nothing when
+  /// there is none.
+  std::optional<std::size_t> find(std::string_view name, double from,
+                                  const std::vector<std::size_t>& but_not = {}) const;
 
   /// Time of the first event of this name not before `from`, s; nothing when there is none.
   std::optional<double> first(std::string_view name,

@@ -34,7 +34,7 @@ void fill_unseen(CheckResult& result, const std::string& what) {
 }
 
 void ValueAssertion::sample(double time) {
-  if (!subject_.present() || broken_at_) return;
+  if (!subject_.present() || broken_at_ || !applies()) return;
   seen_ = true;
   if (!std::isfinite(subject_.magnitude())) {
     broken_at_ = time;
@@ -96,7 +96,6 @@ Measured StaysBetween::measure() const {
 }
 
 Measured StaysInTube::measure() const {
-  if (route_.waypoints.empty()) return {radius_, 0.0};
   const double distance = to_polyline(subject().vector(), route_).norm();
   return {radius_ - distance, distance};
 }

@@ -35,6 +35,7 @@ struct Measured {
 };
 
 /// An assertion about a quantity: samples where it is absent are skipped, a value that is not a number fails.
+/// Without any sample the check is inconclusive.
 class ValueAssertion : public Assertion {
  public:
   ValueAssertion(Subject subject, Wording wording)
@@ -43,6 +44,8 @@ class ValueAssertion : public Assertion {
   void judge(const RunFacts& facts, CheckResult& result) const final;
 
  protected:
+  /// False while there is nothing to judge the subject by: the sample is skipped.
+  virtual bool applies() const { return true; }
   virtual void take(double time) = 0;
   virtual void conclude(CheckResult& result) const = 0;
 
@@ -108,7 +111,7 @@ class StaysBetween final : public Stays {
   double high_;
 };
 
-/// Near the polyline of the waypoints.
+/// Near the polyline of the waypoints, while there are any.
 class StaysInTube final : public Stays {
  public:
   StaysInTube(Subject subject, Wording wording, std::optional<double> tolerated_for, double tick,
@@ -116,6 +119,7 @@ class StaysInTube final : public Stays {
       : Stays(std::move(subject), std::move(wording), tolerated_for, tick), radius_(radius), route_(route) {}
 
  protected:
+  bool applies() const override { return !route_.waypoints.empty(); }
   Measured measure() const override;
 
  private:

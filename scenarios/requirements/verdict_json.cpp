@@ -13,12 +13,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kMinusInfinity = "-infinity";
+
+/// JSON has no word for infinite: null for "none", a text for a margin without end.
 Json number(double value) {
+  if (value == -std::numeric_limits<double>::infinity()) return kMinusInfinity;
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 double number_at(const Json& object, const char* key) {
   const Json& value = object.at(key);
+  if (value == kMinusInfinity) return -std::numeric_limits<double>::infinity();
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -59,11 +60,13 @@ std::string phase_name(double phase) {
   return "";
 }
 
-// The longest route of the log: later ones may be cleared or cut short.
-void read_route(const Log& log, FilmScript& script) {
+// Takes the longest route of the log: later ones may be cleared or cut short. Returns when another one, such
+// as the way home, took its place, s.
+double read_route(const Log& log, FilmScript& script) {
+  double replaced_at = std::numeric_limits<double>::infinity();
   const LogTopic* route = log.topic("/autopilot/route");
   if (route == nullptr) {
-    return;
+    return replaced_at;
   }
   std::vector<Vector3> longest_N;
   bool cyclic = false;
@@ -77,8 +80,13 @@ void read_route(const Log& log, FilmScript& script) {
       points_N.emplace_back(route->column(name + "x")[message], route->column(name + "y")[message],
                             route->column(name + "z")[message]);
     }
+    const bool is_another = !longest_N.empty() && (points_N.empty() || points_N.front() != longest_N.front());
+    if (is_another) {
+      replaced_at = std::min(replaced_at, route->time()[message]);
+    }
     if (points_N.size() > longest_N.size()) {
       longest_N = points_N;
+      replaced_at = std::numeric_limits<double>::infinity();
       cyclic = route->has("cyclic") && route->column("cyclic")[message] > 0.5;
     }
   }
@@ -89,25 +97,30 @@ void read_route(const Log& log, FilmScript& script) {
   if (cyclic && longest_N.size() > 2) {
     script.planned_path_N.push_back(longest_N.front());
   }
+  return replaced_at;
 }
 
-// The last event that is still fresh, or an empty text.
+// The last event of the flight that is still fresh, or an empty text. What the FCU says about itself and
+// pictures taken are none.
 std::string event_at(const LogTopic* events, double time) {
   if (events == nullptr) {
     return "";
   }
   const std::vector<double>& times = events->time();
-  const auto after = std::upper_bound(times.begin(), times.end(), time);
-  if (after == times.begin() || time - *(after - 1) > kEventShown) {
-    return "";
+  const std::vector<std::string>& kinds = events->texts("kind");
+  auto i = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+  while (i > 0 && (kinds[i - 1] == "fcu" || kinds[i - 1] == "snapshot")) {
+    --i;
   }
-  return events->texts("text")[static_cast<std::size_t>(after - times.begin()) - 1];
+  return i == 0 || time - times[i - 1] > kEventShown ? "" : events->texts("text")[i - 1];
 }
 
 class Director {
  public:
-  Director(const Log& log, const FilmOptions& options)
+  /// @param route_end  s, when the route that is drawn was replaced: waypoints reached later are not its own
+  Director(const Log& log, const FilmOptions& options, double route_end)
       : options_(options),
+        route_end_(route_end),
         shown_topic_(need(log, options.from_estimate ? "/autopilot/estimate" : "/truth/state")),
         shown_(shown_topic_),
         estimate_topic_(log.topic("/autopilot/estimate")),
@@ -142,7 +155,8 @@ class Director {
     frame.time = time;
     frame.truth.pose = shown_.at(time);
     turn_rotors(frame.truth, time);
-    frame.waypoints_reached = static_cast<int>(reached_.at(time));
+    most_reached_ = time < route_end_ ? static_cast<int>(reached_.at(time)) : most_reached_;
+    frame.waypoints_reached = most_reached_;
     const double speed =
         (shown_.at(time).p_NB_N - shown_.at(time - kSpeedWindow).p_NB_N).norm() / kSpeedWindow;
     std::string first = formatted("%.1f s", time, 0.0);
@@ -159,7 +173,7 @@ class Director {
 
   void add_errors(FilmFrame& frame, double time) {
     const Vector3 wanted_N(wanted_[0].at(time), wanted_[1].at(time), wanted_[2].at(time));
-    const double off_path = (wanted_N - frame.truth.pose.p_NB_N).norm();
+    const double off = (wanted_N - frame.truth.pose.p_NB_N).norm();
     const bool flying =
         valid_.at(time) > 0.5 && phase_.at(time) == static_cast<double>(autopilot::FlightPhase::kOffboard);
     std::string line;
@@ -168,7 +182,7 @@ class Director {
       line = formatted("estimate off %.2f m", (frame.estimate->p_NB_N - frame.truth.pose.p_NB_N).norm(), 0.0);
     }
     if (flying) {
-      line += formatted(line.empty() ? "path off %.2f m" : "   path off %.2f m", off_path, 0.0);
+      line += formatted(line.empty() ? "tracking off %.2f m" : "   tracking off %.2f m", off, 0.0);
     }
     if (!line.empty()) {
       frame.captions.push_back(line);
@@ -213,6 +227,8 @@ class Director {
   }
 
   const FilmOptions& options_;
+  double route_end_;
+  int most_reached_ = 0;
   const LogTopic& shown_topic_;
   PoseTrack shown_;
   const LogTopic* estimate_topic_;
@@ -236,8 +252,8 @@ FilmScript film_script(const Log& log, const FilmOptions& options) {
                      options.height, options.quality};
   script.frame_rate = options.frame_rate;
   script.title = metadata(log, "title", "");
-  read_route(log, script);
-  Director(log, options).shoot(script);
+  const double route_end = read_route(log, script);
+  Director(log, options, route_end).shoot(script);
   return script;
 }
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -126,6 +128,26 @@ TEST_F(ReportTest, DrawsNoRunsAtAll) {
 
 TEST_F(ReportTest, ThrowsWhenTheFileCannotBeWritten) {
   EXPECT_THROW(write_report(one(), folder("none") / "no" / "report.html"), std::runtime_error);
+}
+
+TEST(FlightDataTest, ThePathIsThatOfTheMissionAndNotOfTheWayHome) {
+  const ReportRun run = SyntheticFlight().fly(folder("path"), "path");
+  EXPECT_EQ(waypoints_of(run).size(), 3u);
+  const Curve distance = path_distance(run, "/autopilot/estimate");
+  ASSERT_FALSE(distance.value.empty());
+  double squares = 0.0, samples = 0.0;
+  for (const double value : distance.value) {
+    if (std::isnan(value)) continue;
+    squares += value * value;
+    samples += 1.0;
+  }
+  const auto& metrics = run.verdict()->metrics;
+  const auto rms = std::find_if(metrics.begin(), metrics.end(),
+                                [](const Metric& metric) { return metric.name == "path_rms_total_m"; });
+  ASSERT_NE(rms, metrics.end());
+  // The curve has four samples for one of the metric's.
+  constexpr double kSampling = 0.01;
+  EXPECT_NEAR(std::sqrt(squares / samples) / rms->value, 1.0, kSampling);
 }
 
 TEST(FlightDataTest, ErrorsAreEstimateLessTruth) {

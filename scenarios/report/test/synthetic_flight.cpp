@@ -16,8 +16,9 @@ using Eigen::Vector3d;
 
 const std::array<Vector3d, 3> kWaypoints{Vector3d(0.0, 0.0, -5.0), Vector3d(-20.0, 0.0, -8.0),
                                          Vector3d(-20.0, -20.0, -5.0)};
-constexpr double kLegTime = 14.0;  // s
-constexpr double kStart = 10.0;    // s: the first waypoint
+constexpr double kLegTime = 14.0;   // s
+constexpr double kStart = 10.0;     // s: the first waypoint
+constexpr double kHomeward = 41.0;  // s: the way home takes the mission's place
 
 /// A smooth way from 0 to 1.
 double smooth(double share) {
@@ -90,6 +91,11 @@ void SyntheticFlight::set(double t) {
   trajectory.heading = wrapped(2.4 + 0.9 * smooth((t - 12.0) / 10.0));
   trajectory.reached = t < kStart ? 0 : t < kStart + kLegTime ? 1 : t < kStart + 2.0 * kLegTime ? 2 : 3;
   trajectory.finished = trajectory.reached == 3;
+  if (t >= kHomeward) {
+    trajectory.reached = 0;
+    trajectory.finished = false;
+    signals_.route.waypoints.resize(1);
+  }
 
   truth_.p_NB_N =
       p + airborne * Vector3d(0.06 * wobble(t, 0.2), 0.05 * wobble(t, 0.17) + gust, 0.03 * wobble(t, 0.3));

@@ -179,6 +179,11 @@ TEST_F(CheckTest, OvershootIsMeasuredPastTheTarget) {
   EXPECT_THAT(none.explanation, ::testing::HasSubstr("never passed"));
 }
 
+TEST_F(CheckTest, ATubeWithoutARouteShowsNothing) {
+  EXPECT_EQ(run("signal = 'truth.p_NB_N'\nstays_within_tube = '0.001 m'", [](double) {}).outcome,
+            Outcome::kInconclusive);
+}
+
 TEST_F(CheckTest, StaysWithinTheTubeAroundThePolyline) {
   for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, 0, -5), Eigen::Vector3d(10, 0, -5)}) {
     autopilot::Waypoint waypoint;
@@ -218,6 +223,35 @@ TEST_F(CheckTest, NeverHappensPassesAtTheEdgeOfAStrictComparison) {
   const CheckResult strict = run("never_happens = 'autopilot.flight.fcu.rc_override > 0'", nothing);
   expect(strict, Outcome::kPass, 0.0, 0.0);
   EXPECT_EQ(run("never_happens = 'autopilot.flight.fcu.rc_override >= 0'", nothing).outcome, Outcome::kFail);
+}
+
+TEST_F(CheckTest, OrderOfEventsUsesEachEventOnce) {
+  const auto nothing = [](double) {};
+  script_ = {{1.0, "phase", "take_off"}, {3.0, "phase", "offboard"}};
+  const CheckResult twice = run("order_of_events = ['take_off', 'take_off']", nothing);
+  EXPECT_EQ(twice.outcome, Outcome::kFail);
+  EXPECT_THAT(twice.explanation, testing::HasSubstr("not once more"));
+}
+
+TEST_F(CheckTest, OrderOfEventsLooksInsideItsWindowOnly) {
+  const auto nothing = [](double) {};
+  script_ = {{1.0, "phase", "take_off"}, {3.0, "phase", "offboard"}, {5.0, "phase", "landing"}};
+  EXPECT_EQ(run("order_of_events = ['offboard']\nafter = '50 s'", nothing).outcome, Outcome::kInconclusive);
+  expect(run("order_of_events = ['offboard', 'landing']\nuntil = '4 s'", nothing), Outcome::kFail, -1.0, 5.0);
+  EXPECT_EQ(run("order_of_events = ['offboard']\nafter = 'landing'\nuntil = 'offboard'", nothing).outcome,
+            Outcome::kInconclusive);
+  EXPECT_EQ(run("order_of_events = ['take_off', 'offboard']\nafter = 'take_off'\nuntil = 'offboard'", nothing)
+                .outcome,
+            Outcome::kPass);
+}
+
+TEST_F(CheckTest, AWishIsNotTheDeed) {
+  const auto nothing = [](double) {};
+  script_ = {{1.0, "request", "take_off"}, {2.0, "request", "detour"}, {3.0, "refused", "swap"}};
+  EXPECT_EQ(run("order_of_events = ['take_off']", nothing).outcome, Outcome::kFail);
+  EXPECT_EQ(run("order_of_events = ['request:take_off']", nothing).outcome, Outcome::kPass);
+  EXPECT_EQ(run("order_of_events = ['detour']", nothing).outcome, Outcome::kPass);
+  EXPECT_EQ(run("order_of_events = ['swap']", nothing).outcome, Outcome::kFail);
 }
 
 TEST_F(CheckTest, OrderOfEventsNeedsEachAfterTheOneBefore) {
@@ -314,6 +348,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"WindowUnit", "signal = 'truth.p_NB_N.x'\nrms_below = '1'\nafter = '5 m'", "after = \"5 m\""},
         Refusal{"UnknownMetric", "metric = 'speed'\nmetric_below = '1'", "no such metric"},
         Refusal{"SignalForEvents", "signal = 'truth.p_NB_N'\norder_of_events = ['a']", "takes neither"},
+        Refusal{"WindowOfAMetric", "metric = 'path_rms_total_m'\nmetric_below = '1 m'\nafter = '5 s'",
+                "does not take after"},
+        Refusal{"TargetOfABand", "signal = 'truth.p_NB_N.x'\nstays_below = '1 m'\nto = '3 m'",
+                "does not take to"},
+        Refusal{"ToleratedRms", "signal = 'truth.p_NB_N.x'\nrms_below = '1 m'\ntolerated_for = '3 s'",
+                "does not take tolerated_for"},
+        Refusal{"MetricOfASignal", "signal = 'truth.p_NB_N.x'\nrms_below = '1 m'\nmetric = 'nonsense'",
+                "does not take metric"},
+        Refusal{"MetricOfTheMachine", "metric = 'real_time_factor'\nmetric_above = '1'", "no verdict may"},
         Refusal{"NoEvents", "order_of_events = []", "names no event"}),
     [](const auto& tested) { return tested.param.name; });
 

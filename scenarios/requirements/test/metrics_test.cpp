@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <string>
@@ -128,8 +129,16 @@ TEST_F(RunMetricsTest, RootMeanSquareOfASineIsItsAmplitudeOverRootTwo) {
 TEST_F(RunMetricsTest, PositionErrorsCombineByTheirSquares) {
   fly(100, [&](int) { signals_.estimate.p_NB_N = {1.0, 2.0, 2.0}; });
   EXPECT_NEAR(metric("estimate_position_rms_m"), 3.0, kRoundOff);
-  EXPECT_NEAR(metric("estimate_horizontal_rms_m"), std::sqrt(5.0), kRoundOff);
+  EXPECT_NEAR(metric("estimate_horizontal_rms_m"), 2.0, kRoundOff);  // the worse axis
   EXPECT_NEAR(metric("estimate_down_rms_m"), 2.0, kRoundOff);
+}
+
+TEST_F(RunMetricsTest, ATiltThatIsNotANumberIsNotPassedOver) {
+  fly(100, [&](int i) {
+    if (i == 50) truth_.q_NB.x() = std::numeric_limits<double>::quiet_NaN();
+    if (i == 60) truth_.q_NB.setIdentity();
+  });
+  EXPECT_TRUE(std::isnan(metric("max_tilt_deg")));
 }
 
 TEST_F(RunMetricsTest, VelocityErrorIsInBodyAxes) {
@@ -140,7 +149,8 @@ TEST_F(RunMetricsTest, VelocityErrorIsInBodyAxes) {
   fly(100, [](int) {});
   EXPECT_NEAR(metric("estimate_velocity_forward_rms_mps"), 0.3, kRoundOff);
   EXPECT_NEAR(metric("estimate_velocity_right_rms_mps"), 0.4, kRoundOff);
-  EXPECT_NEAR(metric("estimate_velocity_rms_mps"), 0.5, kRoundOff);
+  EXPECT_NEAR(metric("estimate_velocity_rms_mps"), 0.4, kRoundOff);  // the worst axis
+  EXPECT_NEAR(metric("estimate_velocity_total_rms_mps"), 0.5, kRoundOff);
   EXPECT_NEAR(metric("max_speed_mps"), 4.0, kRoundOff);
 }
 
@@ -227,7 +237,7 @@ TEST(MetricNamesTest, AreUniqueAndExplained) {
     EXPECT_FALSE(metric.unit.empty()) << metric.name;
     EXPECT_FALSE(metric.meaning.empty()) << metric.name;
   }
-  EXPECT_EQ(seen.size(), 35u);
+  EXPECT_EQ(seen.size(), 36u);
 }
 
 TEST(MetricNamesTest, AreNotThereWithoutAnAutopilot) {

@@ -128,6 +128,15 @@ TEST(VerdictJsonTest, ReadsBackWhatItWrote) {
   EXPECT_TRUE(std::isnan(verdict.checks[1].time));
 }
 
+TEST(VerdictJsonTest, TellsAMarginWithoutEndFromNone) {
+  Verdict verdict = example();
+  verdict.checks[0].margin = -std::numeric_limits<double>::infinity();
+  verdict.checks[1].margin = std::numeric_limits<double>::quiet_NaN();
+  const Verdict read = verdict_from_json(to_json(verdict));
+  EXPECT_EQ(read.checks[0].margin, -std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isnan(read.checks[1].margin));
+}
+
 TEST(VerdictJsonTest, RefusesWhatIsNoVerdict) {
   EXPECT_THROW(verdict_from_json("{}"), std::invalid_argument);
   EXPECT_THROW(verdict_from_json("nonsense"), std::invalid_argument);
