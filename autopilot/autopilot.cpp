@@ -20,17 +20,11 @@ std::string unknown_kind(const std::string& slot, const std::string& kind, const
   return slot + ".kind = \"" + kind + "\" is unknown; there are: " + joined(registry.names());
 }
 
-/// A new module of `slot.kind`, told its period, with its parameters in the table. Null when there is no such
-/// kind.
-template <class Base>
-std::unique_ptr<Base> made(const std::string& name, const AutopilotConfig::Slot& slot,
-                           const Registry<Base>& registry, ParameterTable& table) {
-  std::unique_ptr<Base> module = registry.make(slot.kind);
-  if (module == nullptr) return module;
-  module->set_period(slot.period);
+/// Tells a new module its period and puts its parameters in the table.
+void settle(Module& module, const std::string& name, Time period, ParameterTable& table) {
+  module.set_period(period);
   table.remove(name);
-  module->register_parameters(table, name);
-  return module;
+  module.register_parameters(table, name);
 }
 
 template <class Base>
@@ -40,16 +34,19 @@ std::unique_ptr<Base> required(const std::string& name, const AutopilotConfig::S
     throw std::invalid_argument(name + ".period = " + std::to_string(slot.period.count()) +
                                 " ns, must be >= 0");
   }
-  std::unique_ptr<Base> module = made(name, slot, registry, table);
+  std::unique_ptr<Base> module = registry.make(slot.kind);
   if (module == nullptr) throw std::invalid_argument(unknown_kind(name, slot.kind, registry));
+  settle(*module, name, slot.period, table);
   return module;
 }
 
 template <class Base>
 RequestOutcome exchange(std::unique_ptr<Base>& place, AutopilotConfig::Slot& slot, const SwapModule& wish,
                         const Registry<Base>& registry, ParameterTable& table, const Signals& signals) {
-  std::unique_ptr<Base> newcomer = made(wish.slot, {wish.kind, slot.period}, registry, table);
+  std::unique_ptr<Base> newcomer = registry.make(wish.kind);
   if (newcomer == nullptr) return {false, unknown_kind(wish.slot, wish.kind, registry)};
+  if (const std::string reason = newcomer->objection(signals); !reason.empty()) return {false, reason};
+  settle(*newcomer, wish.slot, slot.period, table);
   newcomer->take_over(signals);
   place = std::move(newcomer);
   slot.kind = wish.kind;
@@ -94,7 +91,8 @@ const FcuCommand& Autopilot::step(const SensorFrame& frame) {
   Signals& s = signals_;
   s.sensors = frame;
   if (frame.status) s.flight.fcu = *frame.status;
-  s.flight.phase = controller_->phase();
+  if (frame.external_pose) s.external_pose_heard = frame.imu.stamp;
+  note_flight();
   s.estimate = estimator_->run(frame);
   const Route& route = path_planner_->run(s.estimate, s.flight);
   if (route.revision != route_revision_ || route.released != s.route.released) s.route = route;
@@ -121,13 +119,20 @@ RequestOutcome Autopilot::request(const Request& request) {
     override_ = wish->setpoint;
     return {true, ""};
   }
-  if (std::holds_alternative<TakeOff>(request)) controller_->request_take_off();
-  if (std::holds_alternative<Land>(request)) controller_->request_landing();
-  return {true, ""};
+  FlightWish flight_wish = FlightWish::kTakeOff;
+  if (std::holds_alternative<Land>(request)) flight_wish = FlightWish::kLand;
+  if (std::holds_alternative<Resume>(request)) flight_wish = FlightWish::kResume;
+  return controller_->request(flight_wish, signals_.estimate, signals_.flight.fcu);
+}
+
+void Autopilot::note_flight() {
+  signals_.flight.phase = controller_->phase();
+  signals_.flight.cause = controller_->cause();
+  signals_.flight.memory = controller_->memory();
 }
 
 RequestOutcome Autopilot::swap(const SwapModule& wish) {
-  signals_.flight.phase = controller_->phase();
+  note_flight();
   const auto into = [&](auto& place, AutopilotConfig::Slot& slot, const auto& registry) {
     return exchange(place, slot, wish, registry, parameters_, signals_);
   };

@@ -25,12 +25,6 @@ struct AutopilotConfig {
   Slot controller{"cascaded_controller", Time{0}};
 };
 
-/// What became of a request; logged by the bench.
-struct RequestOutcome {
-  bool accepted = false;
-  std::string reason;
-};
-
 /// Flies one multirotor. A pure stepping object: no clock, no threads, no I/O.
 ///
 /// The complete input of a flight is the configuration, the frames and the requests. ROScopter paper,
@@ -63,6 +57,7 @@ class Autopilot {
 
  private:
   RequestOutcome swap(const SwapModule& wish);
+  void note_flight();
 
   Modules modules_;
   AutopilotConfig config_;

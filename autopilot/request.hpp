@@ -42,10 +42,13 @@ struct ReturnToLaunch {};
 using RouteRequest =
     std::variant<AddWaypoint, RemoveWaypoint, SetRoute, ClearRoute, HoldHere, Release, ReturnToLaunch>;
 
-/// Takes off once armed.
+/// Takes off now. Refused, and forgotten, unless the vehicle stands armed, nobody else has it, and there is
+/// an estimate to fly on.
 struct TakeOff {};
 /// Descends here; on the ground no thrust is asked for until the pilot disarms, which the companion cannot.
 struct Land {};
+/// Ends a descent, or the silence after the estimate was lost: holds, then flies on.
+struct Resume {};
 /// Sets one parameter.
 struct SetParameter {
   std::string path;
@@ -63,6 +66,12 @@ struct OverrideSetpoint {
   std::optional<ControlSetpoint> setpoint;
 };
 
-using Request = std::variant<RouteRequest, TakeOff, Land, SetParameter, SwapModule, OverrideSetpoint>;
+using Request = std::variant<RouteRequest, TakeOff, Land, Resume, SetParameter, SwapModule, OverrideSetpoint>;
+
+/// What became of a request; logged by the bench.
+struct RequestOutcome {
+  bool accepted = false;
+  std::string reason;
+};
 
 }  // namespace ironbird::autopilot

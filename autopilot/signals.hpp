@@ -19,6 +19,7 @@ struct Signals {
   TrajectoryPoint trajectory;
   ControlSetpoint setpoint = NoSetpoint{};
   FcuCommand command = SilenceCommand{};
+  Time external_pose_heard{-1};
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -29,6 +30,8 @@ struct Signals {
     visit("trajectory", self.trajectory, "", "where the vehicle should be");
     visit("setpoint", self.setpoint, "", "what the controller was asked for");
     visit("command", self.command, "", "what the FCU was told");
+    visit("external_pose_heard", self.external_pose_heard, "ns",
+          "stamp of the frame with the newest pose from outside; negative: there was none");
   }
 };
 

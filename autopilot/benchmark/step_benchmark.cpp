@@ -24,8 +24,9 @@ SetRoute square() {
 struct Flight {
   explicit Flight(const AutopilotConfig& config) : autopilot(config, standard_modules()) {
     autopilot.request(RouteRequest{square()});
-    autopilot.request(TakeOff{});
     vehicle.status.armed = true;
+    vehicle.fly(autopilot.step(vehicle.frame()));
+    autopilot.request(TakeOff{});
     for (int i = 0; i < 8000; ++i) vehicle.fly(autopilot.step(vehicle.frame()));
   }
 

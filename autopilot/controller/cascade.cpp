@@ -39,12 +39,27 @@ void Cascade::set_params(const CascadeParams& p) {
 }
 
 FcuCommand Cascade::fly(const ControlSetpoint& setpoint, const StateEstimate& estimate, const Step& step) {
+  return run_loops(estimate, step,
+                   [&] { return std::visit([this](const auto& entry) { return enter(entry); }, setpoint); });
+}
+
+FcuCommand Cascade::sink_level(double v_down, const StateEstimate& estimate, const Step& step) {
+  return run_loops(estimate, step, [&] {
+    const double v_D = estimate.v_NB_N().z();
+    AccelerationHeadingRate next;
+    next.a_V.z() = run_filtered(kVelD, v_down - v_D, v_D);
+    return enter(next);
+  });
+}
+
+template <class Enter>
+FcuCommand Cascade::run_loops(const StateEstimate& estimate, const Step& step, Enter&& enter_at) {
   estimate_ = &estimate;
   step_ = step;
   lift_ = 0.0;
   const std::array<bool, kLoops> used_before = used_;
   used_.fill(false);
-  const FcuCommand command = std::visit([this](const auto& entry) { return enter(entry); }, setpoint);
+  const FcuCommand command = enter_at();
   for (std::size_t i = 0; i < loops_.size(); ++i) {
     if (used_before[i] && !used_[i]) loops_[i].reset();
     if (used_[i] && !step.integrate) loops_[i].reset_integral();

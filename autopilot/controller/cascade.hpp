@@ -31,6 +31,10 @@ class Cascade {
   /// past.
   FcuCommand fly(const ControlSetpoint& setpoint, const StateEstimate& estimate, const Step& step);
 
+  /// One step of a descent on height and attitude alone: level, no turn, no horizontal loop.
+  /// @param v_down  m/s
+  FcuCommand sink_level(double v_down, const StateEstimate& estimate, const Step& step);
+
   /// Forgets the past of all loops.
   void reset();
 
@@ -69,6 +73,8 @@ class Cascade {
   FcuCommand enter(const RateThrust& s);
   FcuCommand enter(const NoSetpoint&) { return SilenceCommand{}; }
 
+  template <class Enter>
+  FcuCommand run_loops(const StateEstimate& estimate, const Step& step, Enter&& enter_at);
   double run(Loop loop, double error, double rate);
   double run_filtered(Loop loop, double error, double measurement);
   double yaw_rate_for(double heading);

@@ -1,10 +1,17 @@
 #include "autopilot/controller/cascaded_controller.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 
 namespace {
+
+// So near to the height of the launch the vehicle is more likely on the ground than in the air.
+constexpr double kLow = 1.0;           // m
+constexpr double kShortestRest = 0.3;  // s, which is enough there
 
 bool is_usable(const StateEstimate& estimate) {
   const bool trusted = estimate.health == Health::kGood || estimate.health == Health::kDegraded;
@@ -19,113 +26,175 @@ void CascadedController::reset() {
   Controller::reset();
   cascade_.reset();
   touch_down_.reset();
-  take_off_requested_ = landing_requested_ = entered_ = false;
-  point_N_.setZero();
-  point_heading_ = ground_down_ = 0.0;
+  wishes_.fill(false);
+  armed_at_.reset();
+  seen_disarmed_ = false;
+  rests_since_.reset();
+}
+
+void CascadedController::take_over(const Signals& signals) {
+  Controller::take_over(signals);
+  touch_down_.restore(memory().on_ground);
+  if (memory().has_point) return;
+  notebook().has_point = true;
+  notebook().point_N = signals.estimate.p_NB_N;
+  notebook().point_heading = signals.estimate.heading;
+}
+
+RequestOutcome CascadedController::request(FlightWish wish, const StateEstimate& estimate,
+                                           const FcuStatus& status) {
+  const std::string_view reason = why_not(wish, {.phase = phase(),
+                                                 .armed = status.armed,
+                                                 .failsafe = status.failsafe,
+                                                 .pilot_holds = status.pilot_holds(),
+                                                 .estimate_usable = is_usable(estimate),
+                                                 .position_known = estimate.position_known,
+                                                 .on_ground = touch_down_.felt()});
+  if (!reason.empty()) return {false, std::string(reason)};
+  wishes_[static_cast<std::size_t>(wish)] = true;
+  return {true, ""};
 }
 
 void CascadedController::probe(ProbeVisitor& visit) const {
   visit("lift", cascade_.lift(), "1");
   visit("on_ground", touch_down_.felt() ? 1.0 : 0.0, "1");
-  visit("point_N", point_N_, "m");
+  visit("point_N", memory().point_N, "m");
 }
 
 FcuCommand CascadedController::control(const ControlSetpoint& setpoint, bool landing,
                                        const StateEstimate& estimate, const FcuStatus& status, double dt,
-                                       FlightPhase& phase) {
-  const bool usable = is_usable(estimate);
-  const FlightPhase next = next_phase(phase, inputs(setpoint, landing, estimate, status, phase));
-  if (next != phase || !entered_) enter(next, phase, estimate);
-  phase = next;
-  if (phase == FlightPhase::kDisarmed) {
+                                       PhaseStep& step) {
+  watch(estimate, status);
+  const FlightPhase before = step.phase;
+  const PhaseStep next = next_phase(before, inputs(setpoint, landing, estimate, status, before));
+  wishes_.fill(false);
+  if (next.phase != before) {
+    step = next;
+    enter(next.phase, before, estimate);
+  }
+  if (step.phase == FlightPhase::kDisarmed) {
     cascade_.reset();
     if (status.armed || !params().zeros_while_disarmed) return SilenceCommand{};
     return PassThroughCommand{};
   }
-  if (!usable) {
+  if (step.phase == FlightPhase::kSilent) {
     cascade_.reset();
     return SilenceCommand{};
   }
-  const bool overridden = status.failsafe || status.rc_override != 0;
-  if (overridden && phase != FlightPhase::kTakeOff) {
-    point_N_ = estimate.p_NB_N;
-    point_heading_ = estimate.heading;
+  const bool overridden = status.overridden();
+  if (overridden && step.phase != FlightPhase::kTakeOff && is_usable(estimate)) {
+    notebook().point_N = estimate.p_NB_N;
+    notebook().point_heading = estimate.heading;
   }
-  Cascade::Step step{dt, !overridden, params().take_off_pass_through};
-  switch (phase) {
+  Cascade::Step how{dt, !overridden, params().take_off_pass_through};
+  switch (step.phase) {
     case FlightPhase::kTakeOff:
-      return cascade_.fly(climb(), estimate, step);
+      return cascade_.fly(climb(), estimate, how);
     case FlightPhase::kHold:
-      return cascade_.fly(hold(), estimate, step);
+      return cascade_.fly(hold(), estimate, how);
     case FlightPhase::kLanding:
-      return land(estimate, overridden, step);
+    case FlightPhase::kLevelDescent:
+      return land(step.phase, estimate, overridden, how);
     default:
-      step.thrust_in_newtons = params().acceleration_output == 1;
-      return cascade_.fly(setpoint, estimate, step);
+      how.thrust_in_newtons = params().acceleration_output == 1;
+      return cascade_.fly(setpoint, estimate, how);
   }
+}
+
+void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& status) {
+  // Only who was seen disarmed can be seen arming: a controller that comes late must not take off for it.
+  if (status.armed && seen_disarmed_) armed_at_ = estimate.stamp;
+  if (!status.armed) armed_at_.reset();
+  seen_disarmed_ = !status.armed && status.stamp.count() > 0;
+  const double speed = estimate.position_known ? estimate.v_NB_B.norm() : std::abs(estimate.v_NB_N().z());
+  const bool still = status.overridden() && is_usable(estimate) && speed < params().rest_speed &&
+                     estimate.w_NB_B.norm() < params().rest_rate;
+  if (!still) {
+    rests_since_.reset();
+  } else if (!rests_since_) {
+    rests_since_ = estimate.stamp;
+  }
+}
+
+bool CascadedController::rests_with_pilot(const StateEstimate& estimate) const {
+  if (!rests_since_) return false;
+  const double rest = seconds(estimate.stamp - *rests_since_);
+  const bool low = memory().launched && memory().launch_N.z() - estimate.p_NB_N.z() < kLow;
+  return rest >= params().rest_time || (low && rest >= std::min(kShortestRest, params().rest_time));
+}
+
+bool CascadedController::take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
+                                         const FcuStatus& status, FlightPhase phase) const {
+  if (wishes_[static_cast<std::size_t>(FlightWish::kTakeOff)]) return true;
+  return params().take_off_on_arming && phase == FlightPhase::kDisarmed && armed_at_ &&
+         seconds(estimate.stamp - *armed_at_) <= params().arming_patience &&
+         !std::holds_alternative<NoSetpoint>(setpoint) && !status.failsafe && !status.pilot_holds();
 }
 
 PhaseInputs CascadedController::inputs(const ControlSetpoint& setpoint, bool landing,
                                        const StateEstimate& estimate, const FcuStatus& status,
                                        FlightPhase phase) const {
+  const double in_phase = seconds(estimate.stamp - memory().phase_began);
+  const double target_down = memory().launch_N.z() - params().take_off_height;
   PhaseInputs in;
   in.armed = status.armed;
   in.estimate_usable = is_usable(estimate);
+  in.position_known = estimate.position_known;
   in.setpoint_valid = !std::holds_alternative<NoSetpoint>(setpoint);
-  in.take_off_wanted = take_off_requested_ ||
-                       (params().take_off_on_arming && in.setpoint_valid && phase == FlightPhase::kDisarmed);
-  const double target_down = ground_down_ - params().take_off_height;
+  in.take_off_wanted = take_off_wanted(setpoint, estimate, status, phase);
   in.height_reached =
       in.estimate_usable && estimate.p_NB_N.z() <= target_down + params().take_off_height_threshold;
-  in.hold_over = seconds(estimate.stamp - phase_began_) >= params().take_off_hold_time;
+  in.hold_over = in_phase >= params().take_off_hold_time;
   in.route_lands = landing;
-  in.landing_wanted = landing_requested_;
+  in.landing_wanted = wishes_[static_cast<std::size_t>(FlightWish::kLand)];
+  in.resume_wanted = wishes_[static_cast<std::size_t>(FlightWish::kResume)];
   in.on_ground = touch_down_.felt();
+  in.rests_with_pilot = rests_with_pilot(estimate);
+  in.silence_short = in_phase <= params().silence_patience;
   return in;
 }
 
 void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateEstimate& estimate) {
-  phase_began_ = estimate.stamp;
-  entered_ = true;
   touch_down_.reset();
-  const bool climbed = from == FlightPhase::kTakeOff && phase == FlightPhase::kHold;
-  if (climbed) {
-    point_N_.z() = std::min(estimate.p_NB_N.z(), ground_down_ - params().take_off_height);
+  rests_since_.reset();
+  FlightMemory& m = notebook();
+  m.on_ground = false;
+  if (from == FlightPhase::kTakeOff && phase == FlightPhase::kHold) {  // over the place where it climbed
+    m.point_N.z() = std::min(estimate.p_NB_N.z(), m.launch_N.z() - params().take_off_height);
     return;
   }
-  point_N_ = estimate.p_NB_N;
-  point_heading_ = estimate.heading;
-  if (phase == FlightPhase::kTakeOff) {
-    ground_down_ = estimate.p_NB_N.z();
-    take_off_requested_ = landing_requested_ = false;
-  }
-  if (phase == FlightPhase::kLanding) take_off_requested_ = landing_requested_ = false;
-  if (phase == FlightPhase::kDisarmed && from != FlightPhase::kDisarmed)
-    take_off_requested_ = landing_requested_ = false;
+  if (!is_usable(estimate)) return;
+  m.has_point = true;
+  m.point_N = estimate.p_NB_N;
+  m.point_heading = estimate.heading;
 }
 
 ControlSetpoint CascadedController::climb() const {
-  return PositionClimbHeading{point_N_.head<2>(), -params().take_off_speed, point_heading_};
+  return PositionClimbHeading{memory().point_N.head<2>(), -params().take_off_speed, memory().point_heading};
 }
 
 ControlSetpoint CascadedController::hold() const {
-  return PositionHeading{point_N_, point_heading_};
+  return PositionHeading{memory().point_N, memory().point_heading};
 }
 
-ControlSetpoint CascadedController::descend(const StateEstimate& estimate) const {
-  const bool high = ground_down_ - estimate.p_NB_N.z() > params().landing_slow_height;
-  return PositionClimbHeading{point_N_.head<2>(), high ? params().descent_speed : params().landing_speed,
-                              point_heading_};
+double CascadedController::sink_rate(const StateEstimate& estimate) const {
+  const bool high = memory().launch_N.z() - estimate.p_NB_N.z() > params().landing_slow_height;
+  return high ? params().descent_speed : params().landing_speed;
 }
 
-FcuCommand CascadedController::land(const StateEstimate& estimate, bool overridden,
+FcuCommand CascadedController::land(FlightPhase phase, const StateEstimate& estimate, bool overridden,
                                     const Cascade::Step& step) {
   if (overridden) touch_down_.reset();
+  notebook().on_ground = touch_down_.felt();
   if (touch_down_.felt()) {
     cascade_.reset();
     return PassThroughCommand{};
   }
-  const FcuCommand command = cascade_.fly(descend(estimate), estimate, step);
+  const double v_down = sink_rate(estimate);
+  const PositionClimbHeading over_the_point{memory().point_N.head<2>(), v_down, memory().point_heading};
+  const FcuCommand command = phase == FlightPhase::kLevelDescent
+                                 ? cascade_.sink_level(v_down, estimate, step)
+                                 : cascade_.fly(over_the_point, estimate, step);
   if (!overridden) {
     touch_down_.feel(estimate.stamp, cascade_.lift(), estimate.v_NB_N().z(), params().touch_down_speed,
                      params().touch_down_lift, params().touch_down_time);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "autopilot/controller/cascade.hpp"
 #include "autopilot/controller/controller.hpp"
 #include "autopilot/controller/flight_phase.hpp"
@@ -23,12 +26,17 @@ struct CascadedControllerParams : CascadeParams {
   double touch_down_speed = 0.15;
   double touch_down_lift = 0.95;
   double touch_down_time = 1.0;
+  double arming_patience = 5.0;
+  double silence_patience = 2.0;
+  double rest_speed = 0.15;
+  double rest_rate = 0.05;
+  double rest_time = 2.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     CascadeParams::describe(self, visit);
     visit("take_off_on_arming", self.take_off_on_arming, "1",
-          "arming is the request to take off, once there is something to fly");
+          "arming is the request to take off, when there is something to fly");
     visit("take_off_pass_through", self.take_off_pass_through, "1",
           "take-off, hold and landing ask for torque and thrust; false: for angles and throttle");
     visit("zeros_while_disarmed", self.zeros_while_disarmed, "1",
@@ -47,6 +55,15 @@ struct CascadedControllerParams : CascadeParams {
     visit("touch_down_lift", self.touch_down_lift, "1",
           "share of the weight below which the vehicle ought to sink", 0.1, 1.0);
     visit("touch_down_time", self.touch_down_time, "s", "how long both must last on the ground", 0.1, 10.0);
+    visit("arming_patience", self.arming_patience, "s",
+          "how long after arming it still counts as the request to take off", 0.1, 30.0);
+    visit("silence_patience", self.silence_patience, "s",
+          "an estimate that is back so soon is landed on; later only by request", 0.0, 10.0);
+    visit("rest_speed", self.rest_speed, "m/s", "slower than this the vehicle may lie on the ground", 0.01,
+          1.0);
+    visit("rest_rate", self.rest_rate, "rad/s", "turning slower than this it may", 0.001, 1.0);
+    visit("rest_time", self.rest_time, "s",
+          "how long both must last under pilot or failsafe, to need a new request to take off", 0.1, 60.0);
   }
 };
 
@@ -55,39 +72,42 @@ struct CascadedControllerParams : CascadeParams {
 ///
 /// The FCU alone can disarm: after touch-down the controller asks for no thrust until the pilot disarms.
 /// While the pilot or a failsafe has the vehicle, all integrals are 0 and the point to hold is where the
-/// vehicle is. Without a usable estimate nothing is sent, and the FCU's own time-out decides.
+/// vehicle is; when it comes to rest meanwhile, it needs a new request to take off. Without a horizontal
+/// position it descends level; without a usable estimate nothing is sent, and the FCU's own time-out decides.
 class CascadedController final : public Tunable<Controller, CascadedControllerParams> {
  public:
   CascadedController() : cascade_(params()) {}
 
-  void request_take_off() override { take_off_requested_ = true; }
-  void request_landing() override { landing_requested_ = true; }
+  RequestOutcome request(FlightWish wish, const StateEstimate& estimate, const FcuStatus& status) override;
   void reset() override;
+  void take_over(const Signals& signals) override;
   void probe(ProbeVisitor& visit) const override;
 
  protected:
   void on_parameters() override { cascade_.set_params(params()); }
   FcuCommand control(const ControlSetpoint& setpoint, bool landing, const StateEstimate& estimate,
-                     const FcuStatus& status, double dt, FlightPhase& phase) override;
+                     const FcuStatus& status, double dt, PhaseStep& step) override;
 
  private:
   PhaseInputs inputs(const ControlSetpoint& setpoint, bool landing, const StateEstimate& estimate,
                      const FcuStatus& status, FlightPhase phase) const;
+  void watch(const StateEstimate& estimate, const FcuStatus& status);
+  bool rests_with_pilot(const StateEstimate& estimate) const;
+  bool take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
+                       const FcuStatus& status, FlightPhase phase) const;
   void enter(FlightPhase phase, FlightPhase from, const StateEstimate& estimate);
   ControlSetpoint climb() const;
   ControlSetpoint hold() const;
-  ControlSetpoint descend(const StateEstimate& estimate) const;
-  FcuCommand land(const StateEstimate& estimate, bool overridden, const Cascade::Step& step);
+  double sink_rate(const StateEstimate& estimate) const;
+  FcuCommand land(FlightPhase phase, const StateEstimate& estimate, bool overridden,
+                  const Cascade::Step& step);
 
   Cascade cascade_;
   TouchDown touch_down_;
-  bool take_off_requested_ = false;
-  bool landing_requested_ = false;
-  bool entered_ = false;               // the phase was entered by this object, not taken over
-  Vector3 point_N_ = Vector3::Zero();  // to climb over, to hold, to land at
-  double point_heading_ = 0.0;
-  double ground_down_ = 0.0;  // where the climb began, m down
-  Time phase_began_{0};
+  std::array<bool, 3> wishes_{};     // one for each FlightWish, for the next step only
+  bool seen_disarmed_ = false;       // by this object, in the step before
+  std::optional<Time> armed_at_;     // none: not armed, or not seen to arm
+  std::optional<Time> rests_since_;  // none: it moves, or is not in other hands
 };
 
 }  // namespace ironbird::autopilot

@@ -13,7 +13,16 @@ const FcuCommand& Controller::run(const ControlSetpoint& setpoint, bool landing,
                                   const StateEstimate& estimate, const FcuStatus& status) {
   double dt = 0.0;
   if (!divider_.due(estimate.stamp, period(), dt)) return last_;
-  last_ = control(all_finite(setpoint) ? setpoint : kNothing, landing, estimate, status, dt, phase_);
+  const FlightPhase before = phase();
+  last_ = control(all_finite(setpoint) ? setpoint : kNothing, landing, estimate, status, dt, step_);
+  if (phase() != before) {
+    memory_.phase_began = estimate.stamp;
+    if (before == FlightPhase::kDisarmed || phase() == FlightPhase::kTakeOff) {
+      memory_.launched = true;
+      memory_.launch_N = estimate.p_NB_N;
+      memory_.launch_heading = estimate.heading;
+    }
+  }
   if (!all_finite(last_)) {
     last_ = SilenceCommand{};
     ++withheld_commands_;
@@ -23,14 +32,16 @@ const FcuCommand& Controller::run(const ControlSetpoint& setpoint, bool landing,
 
 void Controller::reset() {
   last_ = SilenceCommand{};
-  phase_ = FlightPhase::kDisarmed;
+  step_ = PhaseStep{};
+  memory_ = FlightMemory{};
   divider_.reset();
   withheld_commands_ = 0;
 }
 
 void Controller::take_over(const Signals& signals) {
   last_ = signals.command;
-  phase_ = signals.flight.phase;
+  step_ = {signals.flight.phase, signals.flight.cause};
+  memory_ = signals.flight.memory;
 }
 
 }  // namespace ironbird::autopilot

@@ -1,9 +1,10 @@
 #pragma once
 
+#include "autopilot/controller/flight_phase.hpp"
 #include "autopilot/module/module.hpp"
+#include "autopilot/request.hpp"
 #include "autopilot/types/control_setpoint.hpp"
 #include "autopilot/types/fcu_command.hpp"
-#include "autopilot/types/flight_status.hpp"
 #include "autopilot/types/state_estimate.hpp"
 
 namespace ironbird::autopilot {
@@ -19,31 +20,37 @@ class Controller : public Module {
   const FcuCommand& run(const ControlSetpoint& setpoint, bool landing, const StateEstimate& estimate,
                         const FcuStatus& status);
 
-  /// The phase after the last step.
-  FlightPhase phase() const { return phase_; }
+  /// The phase after the last step, and why it is that one.
+  FlightPhase phase() const { return step_.phase; }
+  PhaseCause cause() const { return step_.cause; }
 
-  /// The operator wants to take off: honoured when disarmed or on the ground, once armed.
-  virtual void request_take_off() = 0;
-  /// The operator wants to land here and now.
-  virtual void request_landing() = 0;
+  /// What a successor must know. Launch and beginning of the phase are kept for every controller.
+  const FlightMemory& memory() const { return memory_; }
+
+  /// The operator's wish. Granted at the next step, or refused with a reason; never kept for later.
+  virtual RequestOutcome request(FlightWish wish, const StateEstimate& estimate, const FcuStatus& status) = 0;
 
   /// How often a command was not finite and was withheld.
   int withheld_commands() const { return withheld_commands_; }
 
   void reset() override;
 
-  /// Starts in the phase that the predecessor was in.
+  /// Starts in the phase that the predecessor was in, with its memory.
   void take_over(const Signals& signals) override;
 
  protected:
-  /// The work. Sets `phase` to the phase that it was in.
+  /// The work. Sets `step` to the phase that it was in.
   /// @param dt  time since the previous call, s; 0 on the first
   virtual FcuCommand control(const ControlSetpoint& setpoint, bool landing, const StateEstimate& estimate,
-                             const FcuStatus& status, double dt, FlightPhase& phase) = 0;
+                             const FcuStatus& status, double dt, PhaseStep& step) = 0;
+
+  /// The memory, to write in.
+  FlightMemory& notebook() { return memory_; }
 
  private:
   FcuCommand last_ = SilenceCommand{};
-  FlightPhase phase_ = FlightPhase::kDisarmed;
+  PhaseStep step_;
+  FlightMemory memory_;
   Divider divider_;
   int withheld_commands_ = 0;
 };

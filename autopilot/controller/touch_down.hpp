@@ -24,6 +24,11 @@ class TouchDown {
 
   bool felt() const { return felt_; }
   void reset() { watching_ = felt_ = false; }
+  /// Goes on where another one stopped.
+  void restore(bool felt) {
+    watching_ = false;
+    felt_ = felt;
+  }
 
  private:
   Time since_{0};

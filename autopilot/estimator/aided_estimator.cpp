@@ -26,6 +26,7 @@ void AidedEstimator::reset() {
   alignment_.reset();
   running_ = false;
   realigning_ = false;
+  attitude_lost_ = false;
   seen_resets_ = 0;
   last_reset_ = Time{0};
   origin_ = LocalOrigin{};
@@ -63,9 +64,18 @@ void AidedEstimator::rebuild_baro_model() {
   baro_.density_gradient = given > 0.0 ? 0.0 : standard_density_gradient(origin_.altitude);
 }
 
+std::string AidedEstimator::objection(const Signals& signals) const {
+  const FlightPhase phase = signals.flight.phase;
+  if (phase == FlightPhase::kDisarmed || phase == FlightPhase::kSilent) return {};
+  const StateEstimate& last = signals.estimate;
+  if (last.health == Health::kUninitialised) return "in flight there must be an estimate to start from";
+  return last.origin.known ? "" : "in flight it needs an estimate whose origin on the earth is known";
+}
+
 void AidedEstimator::take_over(const Signals& signals) {
   const StateEstimate& last = signals.estimate;
-  if (last.health == Health::kUninitialised || !last.origin.known) return;
+  if (last.health == Health::kLost) alignment_.restart_in_motion();
+  if (last.health == Health::kUninitialised || last.health == Health::kLost || !last.origin.known) return;
   StartState found;
   found.origin = last.origin;
   found.p_NB_N = last.p_NB_N;
@@ -75,6 +85,7 @@ void AidedEstimator::take_over(const Signals& signals) {
   found.moving = true;
   origin_pressure_.reset();
   begin(found, last.stamp);
+  heard_.gnss = last.stamp - Time{std::llround(last.position_age * 1e9)};
   previous_ = last.stamp;
   last_good_ = last;
 }
@@ -94,6 +105,7 @@ StateEstimate AidedEstimator::estimate(const SensorFrame& frame, double dt) {
     advance(frame.imu, step);
     fuse(frame);
     if (!is_finite()) recover(now);
+    if (step > kLongestGap) seek_attitude();
     realign_if_hopeless(frame, step);
   }
   StateEstimate out;
@@ -214,6 +226,12 @@ void AidedEstimator::recover(Time now) {
   delay_line_.clear();
 }
 
+void AidedEstimator::seek_attitude() {
+  attitude_lost_ = true;
+  realigning_ = true;
+  alignment_.restart_in_motion();
+}
+
 void AidedEstimator::realign_if_hopeless(const SensorFrame& frame, double dt) {
   const Time now = frame.imu.stamp;
   const int resets = gates_.velocity.resets() + gates_.mag.resets();
@@ -228,6 +246,7 @@ void AidedEstimator::realign_if_hopeless(const SensorFrame& frame, double dt) {
   }
   if (!realigning_ || !alignment_.add(frame, dt, aiding())) return;
   realigning_ = false;
+  attitude_lost_ = false;
   ++realignments_;
   StartState again = alignment_.start();
   const GeodeticPosition place = geodetic_from_local(again.p_NB_N, again.origin);
@@ -247,9 +266,23 @@ void AidedEstimator::look_after(StateEstimate& estimate, Time now, double dt) {
                       seconds(now - heard_.gnss) > wanted.gnss.silence || dt > kImuSilence;
   const bool refusing = gates_.position.disagreeing() || gates_.velocity.disagreeing() ||
                         gates_.baro.disagreeing() || gates_.mag.disagreeing() || realigning_;
-  const bool unsure = estimate.sigma_v_B.maxCoeff() > wanted.lost_speed;
-  estimate.health = unsure ? Health::kLost : (silent || refusing ? Health::kDegraded : Health::kGood);
+  estimate.health = silent || refusing ? Health::kDegraded : Health::kGood;
+  estimate.position_age = std::max(0.0, seconds(now - heard_.gnss));
+  estimate.position_known =
+      estimate.position_age <= wanted.gnss.coast && estimate.sigma_v_B.maxCoeff() <= wanted.lost_speed;
+  if (is_lost(estimate, now)) {
+    estimate.health = Health::kLost;
+    return;
+  }
   last_good_ = estimate;
+}
+
+bool AidedEstimator::is_lost(const StateEstimate& estimate, Time now) const {
+  const AidingParams& wanted = aiding();
+  const bool no_height =
+      estimate.position_age > wanted.gnss.coast && seconds(now - heard_.baro) > wanted.gnss.coast;
+  return attitude_lost_ || no_height || estimate.sigma_p_N.z() > wanted.lost_height ||
+         estimate.sigma_attitude.head<2>().maxCoeff() > wanted.lost_tilt;
 }
 
 void AidedEstimator::probe(ProbeVisitor& visit) const {

@@ -59,8 +59,12 @@ class AidedEstimator : public Estimator {
   void reset() override;
   void probe(ProbeVisitor& visit) const override;
 
-  /// Starts from the estimate of the module it replaces. Height 0 of the barometer follows from its first
-  /// sample.
+  /// In flight there must be an estimate with an origin to start from; one that was lost is no help, but no
+  /// harm.
+  std::string objection(const Signals& signals) const override;
+
+  /// Starts from the estimate of the module it replaces, with the age of its position. Height 0 of the
+  /// barometer follows from its first sample. After an estimate that was lost it begins as in flight.
   void take_over(const Signals& signals) override;
 
   /// How often the state was not finite and was rebuilt.
@@ -131,10 +135,13 @@ class AidedEstimator : public Estimator {
   void realign_if_hopeless(const SensorFrame& frame, double dt);
   void filter_rates(const Vector3& w_B, double dt);
   void look_after(StateEstimate& estimate, Time now, double dt);
+  bool is_lost(const StateEstimate& estimate, Time now) const;
+  void seek_attitude();
 
   Alignment alignment_;
   bool running_ = false;
   bool realigning_ = false;
+  bool attitude_lost_ = false;  // until the realignment is through
   int seen_resets_ = 0;
   Time last_reset_{0};
   LocalOrigin origin_;

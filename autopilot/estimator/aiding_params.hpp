@@ -16,6 +16,7 @@ struct GnssParams {
   double velocity_gate = 35.0;
   double persistence = 3.0;
   double silence = 1.0;
+  double coast = 15.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -36,6 +37,11 @@ struct GnssParams {
     visit("persistence", self.persistence, "s", "after so long a disagreement the filter is reset", 0.0,
           600.0);
     visit("silence", self.silence, "s", "without a usable fix for this long: degraded", 0.0, 600.0);
+    visit("coast", self.coast, "s",
+          "without a usable fix for this long the horizontal position is not known; nor, without the "
+          "barometer, "
+          "the height: lost",
+          0.1, 600.0);
   }
 };
 
@@ -141,6 +147,8 @@ struct AidingParams {
   double gravity = 9.81;
   double gyro_cutoff = 20.0;
   double lost_speed = 3.0;
+  double lost_height = 20.0;
+  double lost_tilt = 0.35;
   GnssParams gnss;
   BaroParams baro;
   MagParams mag;
@@ -151,8 +159,12 @@ struct AidingParams {
   static void describe(Self& self, Visit&& visit) {
     visit("gravity", self.gravity, "m/s^2", "acceleration of gravity", 1.0, 20.0);
     visit("gyro_cutoff", self.gyro_cutoff, "Hz", "low pass of the published rates; 0: none", 0.0, 1e4);
-    visit("lost_speed", self.lost_speed, "m/s", "with a velocity less sure than this (1 sigma): lost", 0.01,
-          1e3);
+    visit("lost_speed", self.lost_speed, "m/s",
+          "with a velocity less sure than this (1 sigma) the horizontal position is not known", 0.01, 1e3);
+    visit("lost_height", self.lost_height, "m", "with a height less sure than this (1 sigma): lost", 0.1,
+          1e4);
+    visit("lost_tilt", self.lost_tilt, "rad", "with roll or pitch less sure than this (1 sigma): lost", 0.01,
+          3.0);
     visit("gnss", self.gnss, "", "satellite positioning");
     visit("baro", self.baro, "", "barometric height");
     visit("mag", self.mag, "", "compass");

@@ -18,6 +18,9 @@ class Estimator : public Module {
   /// @return the estimate at the stamp of the last work; valid until the next call
   const StateEstimate& run(const SensorFrame& frame);
 
+  /// It flies on poses from outside only; where none can arrive it is of no use.
+  virtual bool needs_external_pose() const { return false; }
+
   /// How often `run` was given a frame that was older than the one before, and refused it.
   int refused_frames() const { return refused_frames_; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "autopilot/math/euler_zyx.hpp"
+#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 
@@ -11,6 +12,13 @@ void ExternalPoseEstimator::reset() {
   pose_ = ExternalPose{};
   known_ = false;
   age_ = 0.0;
+}
+
+std::string ExternalPoseEstimator::objection(const Signals& signals) const {
+  const Time heard = signals.external_pose_heard;
+  if (heard.count() < 0) return "no pose from outside has ever arrived";
+  const bool fresh = seconds(signals.sensors.imu.stamp - heard) <= params().lost;
+  return fresh ? "" : "poses from outside no longer arrive";
 }
 
 StateEstimate ExternalPoseEstimator::estimate(const SensorFrame& frame, double /*dt*/) {
@@ -35,7 +43,9 @@ StateEstimate ExternalPoseEstimator::estimate(const SensorFrame& frame, double /
   x.roll = theta.x();
   x.pitch = theta.y();
   x.heading = theta.z();
+  x.position_age = age_;
   x.health = age_ > params().silence ? Health::kDegraded : Health::kGood;
+  if (age_ > params().lost) x.health = Health::kLost;
   return x;
 }
 

@@ -48,6 +48,10 @@ class Module {
   /// Shows private quantities worth plotting. The names and their order may not change during a run.
   virtual void probe(ProbeVisitor&) const {}
 
+  /// Why this module could not go on from where the last tick left the flight; empty when it can. Asked of a
+  /// newcomer before it replaces another module.
+  virtual std::string objection(const Signals&) const { return {}; }
+
   /// Called once on a module that replaces another one in flight, with all that the last tick computed, so
   /// that it can start where its predecessor stopped.
   virtual void take_over(const Signals&) {}

@@ -48,8 +48,7 @@ void WaypointPlanner::reset() {
   wanted_cyclic_ = waiting_ = geodetic_ = false;
   last_id_ = 0;
   origin_ = LocalOrigin{};
-  launch_.reset();
-  grounded_ = true;
+  flight_ = FlightMemory{};
   route_.waypoints.clear();
   route_.revision = route_.released = route_.holds = 0;
   route_.hold_time.reset();
@@ -62,6 +61,7 @@ void WaypointPlanner::take_over(const Signals& signals) {
   route_ = signals.route;
   route_.waypoints.reserve(kMostWaypoints);
   origin_ = signals.estimate.origin;
+  flight_ = signals.flight.memory;
   geodetic_ =
       std::any_of(wanted_.begin(), wanted_.end(), [](const Waypoint& w) { return w.geodetic.has_value(); });
   for (const Waypoint& waypoint : wanted_) last_id_ = std::max(last_id_, waypoint.id);
@@ -72,9 +72,7 @@ bool WaypointPlanner::request(const RouteRequest& request, const StateEstimate& 
 }
 
 const Route& WaypointPlanner::plan(const StateEstimate& estimate, const FlightStatus& flight, double) {
-  const bool disarmed = flight.phase == FlightPhase::kDisarmed;
-  if (grounded_ && !disarmed) launch_ = Place{estimate.p_NB_N, estimate.heading};
-  grounded_ = disarmed;
+  flight_ = flight.memory;
   if (geodetic_ && estimate.origin.known && !same_place(origin_, estimate.origin))
     put_in_force(estimate.origin);
   return route_;
@@ -118,15 +116,15 @@ bool WaypointPlanner::apply(const Release&, const StateEstimate&) {
 }
 
 bool WaypointPlanner::apply(const ReturnToLaunch&, const StateEstimate& estimate) {
-  if (!launch_) return false;
+  if (!flight_.launched) return false;
   Waypoint climb;
   climb.p_N = estimate.p_NB_N;
-  climb.p_N.z() = std::min(estimate.p_NB_N.z(), launch_->p_N.z() - params().return_height);
+  climb.p_N.z() = std::min(estimate.p_NB_N.z(), flight_.launch_N.z() - params().return_height);
   climb.heading = estimate.heading;
   Waypoint land;
   land.kind = WaypointKind::kLand;
-  land.p_N << launch_->p_N.head<2>(), climb.p_N.z();
-  land.heading = launch_->heading;
+  land.p_N << flight_.launch_N.head<2>(), climb.p_N.z();
+  land.heading = flight_.launch_heading;
   return replace({climb, land}, false, estimate);
 }
 

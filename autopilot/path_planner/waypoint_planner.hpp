@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "autopilot/module/tunable.hpp"
@@ -43,11 +42,6 @@ class WaypointPlanner final : public Tunable<PathPlanner, WaypointPlannerParams>
   const Route& plan(const StateEstimate& estimate, const FlightStatus& flight, double dt) override;
 
  private:
-  struct Place {
-    Vector3 p_N = Vector3::Zero();
-    double heading = 0.0;
-  };
-
   bool apply(const AddWaypoint& wish, const StateEstimate& estimate);
   bool apply(const RemoveWaypoint& wish, const StateEstimate& estimate);
   bool apply(const SetRoute& wish, const StateEstimate& estimate);
@@ -64,8 +58,7 @@ class WaypointPlanner final : public Tunable<PathPlanner, WaypointPlannerParams>
   bool geodetic_ = false;
   std::uint32_t last_id_ = 0;
   LocalOrigin origin_;
-  std::optional<Place> launch_;
-  bool grounded_ = true;
+  FlightMemory flight_;
   Route route_;
 };
 

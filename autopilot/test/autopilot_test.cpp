@@ -55,8 +55,9 @@ class AutopilotTest : public ::testing::Test {
   }
 
   void take_off() {
-    ask(TakeOff{});
     vehicle_.status.armed = true;
+    step();
+    ask(TakeOff{});
     ASSERT_TRUE(until(10.0, [](const Signals& s) { return s.flight.phase == FlightPhase::kHold; }));
   }
 
@@ -134,6 +135,48 @@ TEST_F(AutopilotTest, SwapsEveryModuleInFlightWithoutUpset) {
   EXPECT_LT((vehicle_.p_NB_N - Vector3(40, 0, -5)).norm(), 0.5);
 }
 
+TEST_F(AutopilotTest, ReturnsToLaunchWhateverWasExchangedOnTheWay) {
+  vehicle_.p_NB_N << 4.0, -3.0, 0.0;
+  ask(RouteRequest{SetRoute{{place(15, 5, -6)}, false}});
+  take_off();
+  ask(SwapModule{"controller", "cascaded_controller"});
+  ASSERT_TRUE(until(30.0, [](const Signals& s) { return s.trajectory.finished; }));
+  for (const auto& [slot, kind] : {std::pair{"path_planner", "waypoint_planner"},
+                                   {"path_manager", "minimum_snap_manager"},
+                                   {"trajectory_follower", "flat_pid_follower"},
+                                   {"controller", "cascaded_controller"}}) {
+    ask(SwapModule{slot, kind});
+    fly(0.1);
+  }
+  ask(RouteRequest{ReturnToLaunch{}});
+  ASSERT_TRUE(until(60.0, [&](const Signals&) { return vehicle_.p_NB_N.z() > -0.01; }));
+  EXPECT_LT((vehicle_.p_NB_N - Vector3(4.0, -3.0, 0.0)).norm(), 0.2);
+}
+
+TEST_F(AutopilotTest, RefusesAnEstimatorThatCouldNotGoOn) {
+  ask(RouteRequest{SetRoute{{place(0, 0, -5)}, false}});
+  take_off();
+  EXPECT_THAT(autopilot_.request(SwapModule{"estimator", "ekf"}).reason, HasSubstr("origin"))
+      << "a pose from outside says nothing about the earth";
+  // WHEN poses have not come for a while
+  for (int i = 0; i < 500; ++i) {
+    SensorFrame frame = vehicle_.frame();
+    frame.external_pose.reset();
+    vehicle_.fly(autopilot_.step(frame));
+  }
+  EXPECT_THAT(autopilot_.request(SwapModule{"estimator", "external_pose"}).reason, HasSubstr("no longer"));
+  EXPECT_EQ(autopilot_.signals().flight.phase, FlightPhase::kSilent) << "it has neither place nor attitude";
+}
+
+TEST_F(AutopilotTest, RefusesPosesFromOutsideThatNeverCame) {
+  AutopilotConfig config;
+  Autopilot other(config, standard_modules());
+  SensorFrame frame = vehicle_.frame();
+  frame.external_pose.reset();
+  other.step(frame);
+  EXPECT_THAT(other.request(SwapModule{"estimator", "external_pose"}).reason, HasSubstr("ever arrived"));
+}
+
 TEST_F(AutopilotTest, FliesAnOperatorsSetpointWhileTheRouteWaits) {
   ask(RouteRequest{SetRoute{{place(0, 0, -5), place(30, 0, -5)}, false}});
   take_off();
@@ -171,9 +214,13 @@ TEST_F(AutopilotTest, RepeatsAFlightToTheBit) {
   const Request route = RouteRequest{SetRoute{{place(0, 5, -5)}, false}};
   for (Autopilot* each : {&autopilot_, &other}) {
     each->request(route);
-    each->request(TakeOff{});
   }
   vehicle_.status.armed = true;
+  for (Autopilot* each : {&autopilot_, &other}) {
+    each->step(vehicle_.frame());
+    ASSERT_TRUE(each->request(TakeOff{}).accepted);
+  }
+  vehicle_.fly(SilenceCommand{});
   for (int i = 0; i < 4000; ++i) {
     const SensorFrame frame = vehicle_.frame();
     const FcuCommand command = autopilot_.step(frame);

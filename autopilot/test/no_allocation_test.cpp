@@ -56,8 +56,9 @@ TEST_P(NoAllocationTest, StepNeverAllocatesWhileTakingOffFlyingHoldingAndLanding
     route.waypoints.push_back(waypoint);
   }
   ASSERT_TRUE(autopilot.request(RouteRequest{route}).accepted);
-  autopilot.request(TakeOff{});
   vehicle.status.armed = true;
+  vehicle.fly(autopilot.step(vehicle.frame()));
+  ASSERT_TRUE(autopilot.request(TakeOff{}).accepted);
   // WHEN it flies all of it
   const std::size_t before = allocations;
   bool landed = false;

@@ -9,38 +9,88 @@
 
 namespace ironbird::autopilot {
 
-/// The controller's state machine. ROScopter paper, section on the controller; landing is ours.
+/// The controller's state machine. ROScopter paper, section on the controller; landing and what follows is
+/// ours.
 enum class FlightPhase : std::uint8_t {
-  kDisarmed,  ///< motors may not turn
-  kTakeOff,   ///< climbing on the spot
-  kHold,      ///< holding the point above the take-off place
-  kOffboard,  ///< flying the follower's setpoint
-  kLanding    ///< descending on the spot until the ground is felt
+  kDisarmed,      ///< on the ground: nothing is sent; waits for arming and a request to take off
+  kTakeOff,       ///< climbing on the spot
+  kHold,          ///< holding a point
+  kOffboard,      ///< flying the follower's setpoint
+  kLanding,       ///< descending on the spot until the ground is felt
+  kLevelDescent,  ///< descending level, on height and attitude alone, until the ground is felt
+  kSilent         ///< no estimate to fly on: nothing is sent, the FCU's own time-out decides
 };
 
-constexpr std::array<std::pair<FlightPhase, std::string_view>, 5> enumerators(FlightPhase) {
+constexpr std::array<std::pair<FlightPhase, std::string_view>, 7> enumerators(FlightPhase) {
   return {{{FlightPhase::kDisarmed, "disarmed"},
            {FlightPhase::kTakeOff, "take_off"},
            {FlightPhase::kHold, "hold"},
            {FlightPhase::kOffboard, "offboard"},
-           {FlightPhase::kLanding, "landing"}}};
+           {FlightPhase::kLanding, "landing"},
+           {FlightPhase::kLevelDescent, "level_descent"},
+           {FlightPhase::kSilent, "silent"}}};
 }
+
+/// Why the phase changed, when neither operator, pilot nor route asked for it.
+enum class PhaseCause : std::uint8_t {
+  kPlanned,          ///< somebody asked for it, or it is the next step of what was asked for
+  kPositionUnknown,  ///< the horizontal position is no longer known
+  kPositionKnown,    ///< it is known again
+  kEstimateLost,     ///< not even height and attitude are to be trusted
+  kEstimateBack,     ///< they are again, soon enough to land
+  kRestsWithPilot    ///< the vehicle came to rest while pilot or failsafe had it
+};
+
+constexpr std::array<std::pair<PhaseCause, std::string_view>, 6> enumerators(PhaseCause) {
+  return {{{PhaseCause::kPlanned, "planned"},
+           {PhaseCause::kPositionUnknown, "position_unknown"},
+           {PhaseCause::kPositionKnown, "position_known"},
+           {PhaseCause::kEstimateLost, "estimate_lost"},
+           {PhaseCause::kEstimateBack, "estimate_back"},
+           {PhaseCause::kRestsWithPilot, "rests_with_pilot"}}};
+}
+
+/// What a flight must not forget when one of its modules is replaced.
+struct FlightMemory {
+  Time phase_began{};
+  bool launched = false;
+  Vector3 launch_N = Vector3::Zero();
+  double launch_heading = 0.0;
+  bool has_point = false;
+  Vector3 point_N = Vector3::Zero();
+  double point_heading = 0.0;
+  bool on_ground = false;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("phase_began", self.phase_began, "ns", "stamp of the estimate with which the phase began");
+    visit("launched", self.launched, "1", "the vehicle has taken off before");
+    visit("launch_N", self.launch_N, "m", "where it took off last, from the local origin");
+    visit("launch_heading", self.launch_heading, "rad", "its heading there");
+    visit("has_point", self.has_point, "1", "there is a point to climb over, to hold, to land at");
+    visit("point_N", self.point_N, "m", "that point, from the local origin");
+    visit("point_heading", self.point_heading, "rad", "the heading to keep there");
+    visit("on_ground", self.on_ground, "1", "touch-down was felt in this descent");
+  }
+};
 
 /// Who flies and in which phase: what the FCU said last, and the phase that the controller was in after the
 /// previous tick.
 struct FlightStatus {
   FlightPhase phase = FlightPhase::kDisarmed;
+  PhaseCause cause = PhaseCause::kPlanned;
   FcuStatus fcu;
+  FlightMemory memory;
 
   /// The follower's setpoints reach the motors: in the offboard phase, armed, and no axis held by the pilot.
-  bool companion_flies() const {
-    return phase == FlightPhase::kOffboard && fcu.armed && !fcu.failsafe && fcu.rc_override == 0;
-  }
+  bool companion_flies() const { return phase == FlightPhase::kOffboard && fcu.armed && !fcu.overridden(); }
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("phase", self.phase, "1", "phase of the controller's state machine");
+    visit("cause", self.cause, "1", "why it changed last");
     visit("fcu", self.fcu, "", "what the FCU said last");
+    visit("memory", self.memory, "", "what outlives an exchange of modules");
   }
 };
 

@@ -137,6 +137,12 @@ struct FcuStatus {
   bool imu_calibrated = true;
   double battery_voltage = 0.0;
 
+  /// The pilot's switches or sticks hold an axis: bits 0 to 4 of the wire. The bits above say that the
+  /// companion was not heard, or that the pilot's throttle is the lower one.
+  bool pilot_holds() const { return (rc_override & 0x1F) != 0; }
+  /// The motors do not obey the companion, whatever the reason.
+  bool overridden() const { return failsafe || rc_override != 0; }
+
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("stamp", self.stamp, "ns", "when the status arrived");

@@ -15,7 +15,7 @@ enum class Health : std::uint8_t {
   kUninitialised,  ///< no estimate yet: do not fly on it
   kGood,
   kDegraded,  ///< coasting without one of its sensors
-  kLost       ///< diverged or not finite; the values are the last good ones
+  kLost       ///< not even height and attitude are to be trusted: do not fly on it
 };
 
 /// Every value of Health with its name in files and logs.
@@ -58,6 +58,8 @@ struct StateEstimate {
   Vector3 sigma_v_B = Vector3::Zero();
   Vector3 sigma_attitude = Vector3::Zero();
   LocalOrigin origin;
+  bool position_known = true;
+  double position_age = 0.0;
   Health health = Health::kUninitialised;
 
   /// Velocity over ground in N, m/s.
@@ -80,6 +82,9 @@ struct StateEstimate {
     visit("sigma_v_B", self.sigma_v_B, "m/s", "1 sigma of v_NB_B");
     visit("sigma_attitude", self.sigma_attitude, "rad", "1 sigma of roll, pitch, heading");
     visit("origin", self.origin, "", "where N begins");
+    visit("position_known", self.position_known, "1",
+          "horizontal position and velocity can be flown on; false: height and attitude only");
+    visit("position_age", self.position_age, "s", "since the horizontal position was last measured");
     visit("health", self.health, "1", "how far the estimate may be trusted");
   }
 };

@@ -6,8 +6,14 @@ namespace ironbird::hil_bridge::virtual_fcu {
 
 namespace {
 
-bool is_finite(const Triple& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+// What no sensor on a vehicle can say: its squares would overflow, and the filters never forget.
+constexpr float kMostAcceleration = 1.0e3F;  // m/s^2
+constexpr float kMostRate = 1.0e2F;          // rad/s
+constexpr float kMostVoltage = 1.0e3F;       // V
+
+/// Every component is a number within +-limit. False for NaN.
+bool is_within(const Triple& v, float limit) {
+  return std::fabs(v.x) <= limit && std::fabs(v.y) <= limit && std::fabs(v.z) <= limit;
 }
 
 }  // namespace
@@ -49,7 +55,8 @@ bool is_atmospheric(float pressure) {
 void Firmware::read_sensors(Board& board) {
   if (board.imu) {
     const ImuInput rotated = corrections_.rotated(*board.imu);
-    const bool sound = is_finite(rotated.acceleration) && is_finite(rotated.angular_velocity);
+    const bool sound =
+        is_within(rotated.acceleration, kMostAcceleration) && is_within(rotated.angular_velocity, kMostRate);
     if (sound && calibrating_imu()) calibrate_imu(rotated);
     imu_before_us_ = imu_.stamp_us;
     imu_ = corrections_.corrected(rotated);
@@ -64,7 +71,7 @@ void Firmware::read_sensors(Board& board) {
       airspeed_calibration_.running()) {
     calibrate_pressure(airspeed_calibration_, board.differential_pressure->pressure);
   }
-  if (board.battery && std::isfinite(board.battery->voltage)) battery_.add(*board.battery);
+  if (board.battery && std::fabs(board.battery->voltage) <= kMostVoltage) battery_.add(*board.battery);
 }
 
 void Firmware::control(Board& board) {

@@ -195,12 +195,42 @@ class AutopilotReader {
 
 }  // namespace
 
+namespace {
+
+/// Estimators that fly on poses from outside: the virtual FCU sends none.
+void refuse_poses_from_outside(const autopilot::Modules& modules, const LoadedScenario& loaded) {
+  const auto needs_poses = [&](const std::string& kind) {
+    const std::unique_ptr<autopilot::Estimator> estimator = modules.estimators.make(kind);
+    return estimator != nullptr && estimator->needs_external_pose();
+  };
+  std::vector<std::string> findings;
+  const auto report = [&](const std::string& path, const std::string& kind) {
+    const std::invalid_argument finding(
+        path + " = \"" + kind +
+        "\": flies on poses from outside, and nothing in this bench sends any; "
+        "take \"ekf\" or \"error_state\"");
+    findings.emplace_back(loaded.located(finding).what());
+  };
+  const std::string& first = loaded.autopilot.estimator.kind;
+  if (needs_poses(first)) report("autopilot.estimator.kind", first);
+  const auto& events = loaded.scenario.events;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (events[i].swap == "estimator" && needs_poses(events[i].kind)) {
+      report("event[" + std::to_string(i) + "].kind", events[i].kind);
+    }
+  }
+  if (!findings.empty()) throw ConfigError(std::move(findings));
+}
+
+}  // namespace
+
 void load_autopilot(const toml::table& root, const autopilot::Modules& modules, LoadedScenario& loaded) {
   std::array<SlotAccess, 5> slots = all_slots(loaded.autopilot, modules);
   AutopilotReader reader(root, loaded);
   for (SlotAccess& slot : slots) reader.read(slot);
   reader.report_unknown(slots);
   reader.finish();
+  refuse_poses_from_outside(modules, loaded);
 }
 
 }  // namespace ironbird::scenarios

@@ -110,7 +110,7 @@ void Bench::wire_record() {
   const autopilot::Signals& signals = autopilot_->signals();
   const Time state = from_seconds(scenario_.record.state_period);
   const Time slow = from_seconds(scenario_.record.signal_period);
-  recorder_->add("/truth/state", world_->truth(), state);
+  recorder_->add("/truth/state", world_->truth(), state, Recorder::When::kAlways);
   recorder_->add("/autopilot/estimate", signals.estimate, state);
   if (scenario_.record.frames) {
     recorder_->add("/autopilot/sensors", signals.sensors);
@@ -182,9 +182,10 @@ Bench::Time Bench::tick() {
   watch(now);
   judge_->observe(now);
   if (published_events_ != judge_->events().size()) publish_events(now);
-  if (recorder_ && lockstep_->stepped()) {
-    probes_->observe(now);
-    recorder_->observe(now);
+  if (recorder_) {
+    // The truth goes on when the FCU hears nothing of it.
+    if (lockstep_->stepped()) probes_->observe(now);
+    recorder_->observe(now, lockstep_->stepped());
     if (autopilot_->signals().route.revision != recorded_route_) record_route(now);
   }
   return now;
@@ -194,7 +195,8 @@ void Bench::watch(Time now) {
   if (const auto seen = ground_.observe(world_->truth())) judge_->event(now, "ground", std::string(*seen));
   for (const auto& text : lockstep_->texts()) {
     const char* begin = text.text.data();
-    judge_->event(now, "fcu", std::string(begin, strnlen(begin, text.text.size())));
+    const std::string_view words(begin, strnlen(begin, text.text.size()));
+    if (texts_.is_news(words, now)) judge_->event(now, "fcu", std::string(words));
   }
   if (const char* failure = world_->failure()) {
     broken_promises_.emplace_back(std::string("the physics engine can no longer be believed: ") + failure);

@@ -16,6 +16,7 @@
 #include "scenarios/bench/probe_recorder.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/bench/script.hpp"
+#include "scenarios/bench/text_watch.hpp"
 #include "scenarios/record/recorder.hpp"
 #include "scenarios/requirements/judge.hpp"
 #include "scenarios/requirements/signal_table.hpp"
@@ -100,6 +101,7 @@ class Bench {
   SignalTable signals_;
   std::unique_ptr<Judge> judge_;
   GroundWatch ground_;
+  TextWatch texts_;
   Script script_;
   std::vector<Deed> deeds_;
   std::map<std::size_t, std::string> running_faults_;  // by number

@@ -18,6 +18,8 @@ autopilot::Request request_of(OperatorWish wish, const EventConfig& event) {
       return autopilot::TakeOff{};
     case OperatorWish::kLand:
       return autopilot::Land{};
+    case OperatorWish::kResume:
+      return autopilot::Resume{};
     case OperatorWish::kHold:
       return autopilot::RouteRequest(
           autopilot::HoldHere{event.magnitude > 0.0 ? std::optional<double>(event.magnitude) : std::nullopt});

@@ -89,6 +89,7 @@ constexpr std::array<std::pair<PilotAction, std::string_view>, 7> enumerators(Pi
 enum class OperatorWish : std::uint8_t {
   kTakeOff,
   kLand,
+  kResume,
   kHold,
   kRelease,
   kReturnToLaunch,
@@ -96,9 +97,10 @@ enum class OperatorWish : std::uint8_t {
   kFollowerFlies
 };
 
-constexpr std::array<std::pair<OperatorWish, std::string_view>, 7> enumerators(OperatorWish) {
+constexpr std::array<std::pair<OperatorWish, std::string_view>, 8> enumerators(OperatorWish) {
   return {{{OperatorWish::kTakeOff, "take_off"},
            {OperatorWish::kLand, "land"},
+           {OperatorWish::kResume, "resume"},
            {OperatorWish::kHold, "hold"},
            {OperatorWish::kRelease, "release"},
            {OperatorWish::kReturnToLaunch, "return_to_launch"},

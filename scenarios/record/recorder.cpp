@@ -25,7 +25,7 @@ Recorder::Channel Recorder::add_source(std::string_view topic, const Ros2Schema&
   if (find(topic) != nullptr) {
     throw std::invalid_argument("topic " + std::string(topic) + " is recorded already");
   }
-  Source source{std::string(topic), live, encoder, period, Time::min(), 0, true};
+  Source source{std::string(topic), live, encoder, period, Time::min(), 0, true, When::kWithFrames};
   for (const TopicRule& rule : rules_) {
     if (!matches(rule.topic, topic)) continue;
     source.recorded = rule.record;
@@ -69,8 +69,9 @@ void Recorder::write(const Source& source, Encode encoder, const void* value, Ti
   writer_.end_message();
 }
 
-void Recorder::observe(Time now) {
+void Recorder::observe(Time now, bool frame) {
   for (Source& source : sources_) {
+    if (!frame && source.when == When::kWithFrames) continue;
     if (source.live == nullptr || !source.recorded || now < source.next) continue;
     if (source.period > Time{0}) source.next = (now / source.period + 1) * source.period;
     source.encode(source.live, writer_.begin_message(source.channel, now));

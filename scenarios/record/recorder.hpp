@@ -75,11 +75,19 @@ class Recorder {
   /// @throws std::runtime_error when the file cannot be made
   explicit Recorder(const std::filesystem::path& file, const RecorderOptions& options = {});
 
+  /// When a topic is looked at.
+  enum class When : std::uint8_t {
+    kWithFrames,  ///< when a frame has come
+    kAlways
+  };
+
   /// Adds a topic that shows `live` at each multiple of `period`; 0: at each observe().
   /// @throws std::invalid_argument when the topic was added before or its type cannot be named
   template <class T>
-  Channel add(std::string_view topic, const T& live, Time period = Time{0}) {
-    return add_source(topic, ros2_schema<T>(last_word(topic)), &live, &encode<T>, period);
+  Channel add(std::string_view topic, const T& live, Time period = Time{0}, When when = When::kWithFrames) {
+    const Channel channel = add_source(topic, ros2_schema<T>(last_word(topic)), &live, &encode<T>, period);
+    sources_.back().when = when;
+    return channel;
   }
 
   /// Adds a topic of numbers that lie one behind the other, one for each field.
@@ -89,8 +97,9 @@ class Recorder {
                       Time period = Time{0});
 
   /// Writes every topic that is due at `now`. @param now  never less than before
+  /// @param frame  a frame has come; otherwise only topics that are shown always are looked at
   /// @throws std::runtime_error once when the file can no longer be written
-  void observe(Time now);
+  void observe(Time now, bool frame = true);
 
   /// Writes one message now. The topic is made on first use and takes one type only.
   template <class T>
@@ -122,6 +131,7 @@ class Recorder {
     Time next;
     std::uint16_t channel;
     bool recorded;
+    When when = When::kWithFrames;
   };
 
   template <class T>

@@ -56,10 +56,24 @@ std::optional<double> Timeline::first(std::string_view name, double from) const 
   return events_[*found].time;
 }
 
-void EventDetector::report(double time, Timeline& timeline) {
-  const Seen fresh = now();
+autopilot::Health EventDetector::settled(autopilot::Health health, double time) {
+  constexpr double kCalm = 0.5;  // s
+  const bool better = health != autopilot::Health::kUninitialised &&
+                      seen_.health != autopilot::Health::kUninitialised && health < seen_.health;
+  if (better && !betters_) better_since_ = time;
+  betters_ = better;
+  if (!better) return health;
+  if (time - better_since_ < kCalm) return seen_.health;
+  betters_ = false;
+  return health;
+}
+
+void EventDetector::report(const Seen& fresh, double time, Timeline& timeline) {
   if (fresh.armed != seen_.armed) timeline.add(time, "arming", fresh.armed ? "armed" : "unarmed");
-  if (fresh.phase != seen_.phase) timeline.add(time, "phase", name_of(fresh.phase));
+  if (fresh.phase != seen_.phase) {
+    if (fresh.cause != autopilot::PhaseCause::kPlanned) timeline.add(time, "cause", name_of(fresh.cause));
+    timeline.add(time, "phase", name_of(fresh.phase));
+  }
   if (fresh.health != seen_.health) timeline.add(time, "health", name_of(fresh.health));
   const std::uint32_t counted_from = fresh.reached < seen_.reached ? 0 : seen_.reached;
   for (std::uint32_t i = counted_from + 1; i <= fresh.reached; ++i) {

@@ -52,7 +52,10 @@ class Timeline {
 
 /// Turns changes of the autopilot's signals into events: phases of flight (`offboard`), arming (`armed`,
 /// `unarmed`), waypoints (`waypoint_1` for the first one reached, `route_finished`), health of the estimate
-/// (`degraded`).
+/// (`degraded`), and why the phase changed when nobody asked for it (`cause:position_unknown`).
+///
+/// A health that worsens is an event at once; one that betters, when it has lasted half a second: a sensor
+/// that fails now and then makes one event, not hundreds.
 class EventDetector {
  public:
   /// @param signals  must outlive the detector
@@ -60,12 +63,15 @@ class EventDetector {
 
   /// Adds what has changed since the previous call. To be called after every tick.
   void observe(double time, Timeline& timeline) {
-    if (changed()) report(time, timeline);
+    Seen fresh = now();
+    if (fresh.health != seen_.health || betters_) fresh.health = settled(fresh.health, time);
+    if (!(fresh == seen_)) report(fresh, time, timeline);
   }
 
  private:
   struct Seen {
     autopilot::FlightPhase phase = autopilot::FlightPhase::kDisarmed;
+    autopilot::PhaseCause cause = autopilot::PhaseCause::kPlanned;
     bool armed = false;
     autopilot::Health health = autopilot::Health::kUninitialised;
     std::uint32_t reached = 0;
@@ -74,14 +80,16 @@ class EventDetector {
   };
 
   Seen now() const {
-    return {signals_.flight.phase, signals_.flight.fcu.armed, signals_.estimate.health,
-            signals_.trajectory.reached, signals_.trajectory.finished};
+    return {signals_.flight.phase,    signals_.flight.cause,       signals_.flight.fcu.armed,
+            signals_.estimate.health, signals_.trajectory.reached, signals_.trajectory.finished};
   }
-  bool changed() const { return !(now() == seen_); }
-  void report(double time, Timeline& timeline);
+  autopilot::Health settled(autopilot::Health health, double time);
+  void report(const Seen& fresh, double time, Timeline& timeline);
 
   const autopilot::Signals& signals_;
   Seen seen_;
+  bool betters_ = false;
+  double better_since_ = 0.0;  // s
 };
 
 }  // namespace ironbird::scenarios

@@ -17,7 +17,7 @@ void Battery::draw(double current, double dt) {
 }
 
 void Battery::set_charge(double fraction) {
-  charge_ = std::clamp(fraction, 0.0, 1.0);
+  charge_ = std::clamp(fraction, -params_.collapse, 1.0);
   find_open_voltage();
 }
 
@@ -27,6 +27,10 @@ void Battery::find_open_voltage() {
     return;
   }
   const auto& table = params_.cell_voltage;
+  if (charge_ < 0.0) {
+    open_voltage_ = params_.cells * table[0] * (1.0 + charge_ / params_.collapse);
+    return;
+  }
   const int last = static_cast<int>(table.size()) - 1;
   const int below = std::min(static_cast<int>(charge_ * last), last - 1);
   const double share = charge_ * last - below;

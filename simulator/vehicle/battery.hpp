@@ -12,6 +12,7 @@ struct BatteryParams {
   double initial_charge = 1.0;
   double resistance = 0.0;
   std::array<double, 11> cell_voltage = {3.27, 3.61, 3.69, 3.71, 3.75, 3.79, 3.83, 3.91, 3.98, 4.08, 4.2};
+  double collapse = 0.01;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -22,12 +23,17 @@ struct BatteryParams {
     visit("initial_charge", self.initial_charge, "1", "share of the capacity at the start", 0.0, 1.0);
     visit("resistance", self.resistance, "ohm", "of the whole pack and its leads", 0.0, 10.0);
     visit("cell_voltage", self.cell_voltage, "V", "open-circuit voltage of a cell at charge 0, 0.1, .. 1");
+    visit("collapse", self.collapse, "1",
+          "share of the capacity that is left at charge 0, and over which the voltage falls to nothing", 1e-4,
+          0.2);
   }
 };
 
 /// Open-circuit voltage from the charge left, less the drop over the internal resistance.
 ///
-/// No recovery after load, no temperature. Current flowing back from braking rotors is not stored.
+/// Charge 0 is where a discharge should have ended, at about 3.3 V a cell. Beyond it the curve of a
+/// lithium-polymer cell falls off a cliff: here in a straight line to 0 V within `collapse` of the capacity,
+/// estimated. No recovery after load, no temperature. Current flowing back from braking rotors is not stored.
 class Battery {
  public:
   Battery() = default;

@@ -38,12 +38,30 @@ class CascadedControllerTest : public ::testing::Test {
     controller_.set_params(params);
   }
 
+  void ask(FlightWish wish) {
+    const RequestOutcome outcome = controller_.request(wish, estimate_, status_);
+    ASSERT_TRUE(outcome.accepted) << outcome.reason;
+  }
+
+  std::string refusal(FlightWish wish) { return controller_.request(wish, estimate_, status_).reason; }
+
+  bool is_silent() { return std::holds_alternative<SilenceCommand>(run()); }
+
   void fly_offboard() {
-    controller_.request_take_off();
+    ask(FlightWish::kTakeOff);
     run();
     estimate_.p_NB_N.z() = -2.0;
     run_for(1.1);
     ASSERT_EQ(controller_.phase(), kOffboard);
+  }
+
+  /// Arming, seen by the controller, that is the request to take off.
+  void arm_with_take_off() {
+    set([](CascadedControllerParams& p) { p.take_off_on_arming = true; });
+    status_.armed = false;
+    status_.stamp = std::chrono::milliseconds(1);
+    run();
+    status_.armed = true;
   }
 
   CascadedController controller_;
@@ -65,13 +83,8 @@ TEST_F(CascadedControllerTest, SendsZerosWhileDisarmedWhenToldTo) {
 }
 
 TEST_F(CascadedControllerTest, ClimbsHoldsAndFliesWhatItIsGiven) {
-  // GIVEN a request before arming
-  status_.armed = false;
-  controller_.request_take_off();
-  run();
-  EXPECT_EQ(controller_.phase(), kDisarmed);
-  // WHEN armed THEN it climbs with more than its weight
-  status_.armed = true;
+  // WHEN asked to take off THEN it climbs with more than its weight
+  ask(FlightWish::kTakeOff);
   EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, 3.9 * 9.81);
   EXPECT_EQ(controller_.phase(), kTakeOff);
   // WHEN within half a metre of two metres THEN it holds for a second
@@ -86,16 +99,136 @@ TEST_F(CascadedControllerTest, ClimbsHoldsAndFliesWhatItIsGiven) {
 }
 
 TEST_F(CascadedControllerTest, TakesOffOnArmingWhenToldToOnceThereIsSomethingToFly) {
-  set([](CascadedControllerParams& p) { p.take_off_on_arming = true; });
+  arm_with_take_off();
   run(NoSetpoint{});
   EXPECT_EQ(controller_.phase(), kDisarmed);
   run();
   EXPECT_EQ(controller_.phase(), kTakeOff);
 }
 
+TEST_F(CascadedControllerTest, ForgetsThatArmingWasARequestAfterAWhile) {
+  arm_with_take_off();
+  run_for(controller_.params().arming_patience + 0.1, NoSetpoint{});
+  EXPECT_TRUE(is_silent());
+  EXPECT_EQ(controller_.phase(), kDisarmed);
+}
+
+TEST_F(CascadedControllerTest, DoesNotTakeItForArmingWhenItComesLate) {
+  set([](CascadedControllerParams& p) { p.take_off_on_arming = true; });
+  run_for(1.0);
+  EXPECT_EQ(controller_.phase(), kDisarmed) << "the vehicle was armed before this controller flew it";
+}
+
+TEST_F(CascadedControllerTest, RefusesATakeOffThatCannotBeNowAndForgetsIt) {
+  const FcuStatus good = status_;
+  const auto refuses = [&](const char* reason) {
+    EXPECT_NE(refusal(FlightWish::kTakeOff).find(reason), std::string::npos) << reason;
+    run();
+    status_ = good;
+    estimate_.health = Health::kGood;
+    estimate_.position_known = true;
+    run_for(0.1);
+    EXPECT_EQ(controller_.phase(), kDisarmed) << reason;
+  };
+  status_.armed = false;
+  refuses("not armed");
+  status_.failsafe = true;
+  refuses("failsafe");
+  status_.rc_override = 0x001;
+  refuses("pilot");
+  estimate_.health = Health::kLost;
+  refuses("no estimate");
+  estimate_.position_known = false;
+  refuses("position");
+}
+
+TEST_F(CascadedControllerTest, RefusesToLandOrFlyOnWhenItStands) {
+  EXPECT_NE(refusal(FlightWish::kLand), "");
+  EXPECT_NE(refusal(FlightWish::kResume), "");
+  fly_offboard();
+  EXPECT_NE(refusal(FlightWish::kTakeOff), "");
+  EXPECT_NE(refusal(FlightWish::kResume), "");
+}
+
+TEST_F(CascadedControllerTest, NeedsANewRequestAfterItWasSetDownByThePilot) {
+  fly_offboard();
+  // GIVEN the pilot takes it down and it lies there
+  status_.rc_override = 0x003;
+  estimate_.v_NB_B.z() = 0.5;
+  run_for(2.0);
+  EXPECT_EQ(controller_.phase(), kOffboard) << "it sinks";
+  estimate_.v_NB_B.z() = 0.0;
+  estimate_.p_NB_N.z() = 0.1;
+  run_for(0.5);
+  EXPECT_EQ(controller_.phase(), kDisarmed);
+  EXPECT_EQ(controller_.cause(), PhaseCause::kRestsWithPilot);
+  // WHEN the pilot hands over
+  status_.rc_override = 0;
+  // THEN no propeller turns, until somebody asks
+  for (int i = 0; i < 4000; ++i) ASSERT_TRUE(is_silent());
+  ask(FlightWish::kTakeOff);
+  EXPECT_FALSE(is_silent());
+}
+
+TEST_F(CascadedControllerTest, NeedsANewRequestAfterAFailsafeTookItDownOnAHill) {
+  fly_offboard();
+  status_.failsafe = true;
+  estimate_.p_NB_N.z() = -30.0;
+  run_for(controller_.params().rest_time + 0.1);
+  status_.failsafe = false;
+  EXPECT_TRUE(is_silent());
+  EXPECT_EQ(controller_.phase(), kDisarmed);
+}
+
+TEST_F(CascadedControllerTest, FliesOnAfterAFailsafeInTheAir) {
+  fly_offboard();
+  status_.failsafe = true;
+  estimate_.v_NB_B.z() = 0.3;
+  run_for(20.0);
+  status_.failsafe = false;
+  EXPECT_FALSE(is_silent());
+  EXPECT_EQ(controller_.phase(), kOffboard);
+}
+
+TEST_F(CascadedControllerTest, DescendsLevelWhenThePositionIsNotKnown) {
+  fly_offboard();
+  // GIVEN an estimate that says it is far off and fast, and does not know where it is
+  estimate_.position_known = false;
+  estimate_.p_NB_N << 500.0, -300.0, -10.0;
+  estimate_.v_NB_B << 12.0, -5.0, 0.0;
+  // THEN nobody leans against that, and it sinks
+  const auto command = std::get<PassThroughCommand>(run());
+  EXPECT_EQ(controller_.phase(), kLevelDescent);
+  EXPECT_EQ(controller_.cause(), PhaseCause::kPositionUnknown);
+  EXPECT_LT(command.M_B.norm(), 1e-9);
+  EXPECT_LT(command.thrust, 3.9 * 9.81);
+  // WHEN it feels the ground THEN there is no thrust
+  estimate_.v_NB_B.setZero();
+  estimate_.p_NB_N.z() = -1.0;
+  run_for(2.0);
+  EXPECT_EQ(std::get<PassThroughCommand>(run()).thrust, 0.0);
+}
+
+TEST_F(CascadedControllerTest, LandsOnThePositionWhenItIsKnownAgainAndFliesOnOnlyByRequest) {
+  fly_offboard();
+  estimate_.position_known = false;
+  run();
+  estimate_.position_known = true;
+  run();
+  EXPECT_EQ(controller_.phase(), kLanding);
+  estimate_.v_NB_B.z() = 0.4;
+  run_for(3.0);
+  EXPECT_EQ(controller_.phase(), kLanding);
+  ask(FlightWish::kResume);
+  run();
+  EXPECT_EQ(controller_.phase(), kHold);
+  run_for(1.1);
+  EXPECT_EQ(controller_.phase(), kOffboard);
+}
+
 TEST_F(CascadedControllerTest, TakesOffByThrottleWhenToldTo) {
   set([](CascadedControllerParams& p) { p.take_off_pass_through = false; });
-  controller_.request_take_off();
+  ask(FlightWish::kTakeOff);
   EXPECT_GT(std::get<AngleCommand>(run()).throttle, controller_.params().equilibrium_throttle);
 }
 
@@ -118,7 +251,7 @@ TEST_F(CascadedControllerTest, HoldsWhereItIsWhenTheSetpointIsGone) {
 
 TEST_F(CascadedControllerTest, LandsByRequestAndStopsItsMotorsOnTheGround) {
   fly_offboard();
-  controller_.request_landing();
+  ask(FlightWish::kLand);
   run();
   EXPECT_EQ(controller_.phase(), kLanding);
   // WHEN it sinks THEN it does not feel the ground
@@ -150,7 +283,7 @@ TEST_F(CascadedControllerTest, LandsWhereTheRouteLands) {
 TEST_F(CascadedControllerTest, DescendsFastOnlyWhenHigh) {
   fly_offboard();
   estimate_.p_NB_N.z() = -30.0;
-  controller_.request_landing();
+  ask(FlightWish::kLand);
   run();
   const double high = std::get<PassThroughCommand>(run()).thrust;
   estimate_.p_NB_N.z() = -2.0;
@@ -159,6 +292,7 @@ TEST_F(CascadedControllerTest, DescendsFastOnlyWhenHigh) {
 
 TEST_F(CascadedControllerTest, DoesNotWindUpWhileThePilotFlies) {
   fly_offboard();
+  estimate_.w_NB_B.x() = 0.1;  // in the air nothing lies quite still
   const ControlSetpoint climbing = VelocityHeadingRate{Vector3(0.0, 0.0, -1.0), 0.0};
   const double at_first = std::get<PassThroughCommand>(run(climbing)).thrust;
   status_.rc_override = 1;
@@ -172,7 +306,7 @@ TEST_F(CascadedControllerTest, DoesNotWindUpWhileThePilotFlies) {
 }
 
 TEST_F(CascadedControllerTest, HoldsWhereThePilotLeftTheVehicle) {
-  controller_.request_take_off();
+  ask(FlightWish::kTakeOff);
   run();
   estimate_.p_NB_N.z() = -2.0;
   run(NoSetpoint{});
@@ -186,12 +320,27 @@ TEST_F(CascadedControllerTest, HoldsWhereThePilotLeftTheVehicle) {
   EXPECT_LT(command.M_B.norm(), 1e-9);
 }
 
-TEST_F(CascadedControllerTest, SaysNothingOnAnEstimateThatIsLost) {
+TEST_F(CascadedControllerTest, SaysNothingOnAnEstimateThatIsLostAndLandsWhenItIsSoonBack) {
   fly_offboard();
   estimate_.health = Health::kLost;
-  EXPECT_TRUE(std::holds_alternative<SilenceCommand>(run()));
+  EXPECT_TRUE(is_silent());
+  EXPECT_EQ(controller_.phase(), kSilent);
+  EXPECT_EQ(controller_.cause(), PhaseCause::kEstimateLost);
   estimate_.health = Health::kGood;
-  EXPECT_TRUE(std::holds_alternative<PassThroughCommand>(run()));
+  EXPECT_FALSE(is_silent());
+  EXPECT_EQ(controller_.phase(), kLanding) << "not back to the mission by itself";
+}
+
+TEST_F(CascadedControllerTest, StaysSilentAfterALongLossUntilAskedToFlyOn) {
+  fly_offboard();
+  estimate_.health = Health::kLost;
+  run_for(controller_.params().silence_patience + 0.1);
+  EXPECT_NE(refusal(FlightWish::kResume), "");
+  estimate_.health = Health::kGood;
+  for (int i = 0; i < 4000; ++i) ASSERT_TRUE(is_silent());
+  ask(FlightWish::kResume);
+  EXPECT_FALSE(is_silent());
+  EXPECT_EQ(controller_.phase(), kHold);
 }
 
 TEST_F(CascadedControllerTest, NeverSendsAValueThatIsNotFinite) {
@@ -204,7 +353,7 @@ TEST_F(CascadedControllerTest, NeverSendsAValueThatIsNotFinite) {
   for (double* value :
        {&estimate_.roll, &estimate_.p_NB_N.x(), &estimate_.v_NB_B.y(), &estimate_.w_NB_B.z()}) {
     *value = nan;
-    EXPECT_TRUE(std::holds_alternative<SilenceCommand>(run()));
+    EXPECT_TRUE(is_silent());
     good.stamp = estimate_.stamp;
     estimate_ = good;
     const auto command = std::get<PassThroughCommand>(run());
@@ -223,12 +372,22 @@ TEST_F(CascadedControllerTest, SurvivesAGapOfTheEstimateWithoutAKick) {
 
 TEST_F(CascadedControllerTest, TakesOffAgainAfterALandingByRequest) {
   fly_offboard();
-  controller_.request_landing();
+  ask(FlightWish::kLand);
   run_for(2.0);
   ASSERT_EQ(std::get<PassThroughCommand>(run()).thrust, 0.0);
-  controller_.request_take_off();
+  ask(FlightWish::kTakeOff);
   run();
   EXPECT_EQ(controller_.phase(), kTakeOff);
+}
+
+/// What the autopilot would hand to a successor.
+Signals left_by(const Controller& controller, const StateEstimate& estimate) {
+  Signals signals;
+  signals.estimate = estimate;
+  signals.flight.phase = controller.phase();
+  signals.flight.cause = controller.cause();
+  signals.flight.memory = controller.memory();
+  return signals;
 }
 
 TEST_F(CascadedControllerTest, TakesOverThePhaseOfItsPredecessor) {
@@ -237,6 +396,41 @@ TEST_F(CascadedControllerTest, TakesOverThePhaseOfItsPredecessor) {
   controller_.take_over(signals);
   EXPECT_NEAR(std::get<PassThroughCommand>(run()).thrust, 38.0, 1e-9);
   EXPECT_EQ(controller_.phase(), kOffboard);
+}
+
+TEST_F(CascadedControllerTest, GoesOnWithTheClimbOfItsPredecessor) {
+  // GIVEN a climb that began at 10 m and has come to 11.4 m
+  estimate_.p_NB_N << 3.0, 4.0, -10.0;
+  ask(FlightWish::kTakeOff);
+  run();
+  estimate_.p_NB_N << 3.2, 4.0, -11.4;
+  run();
+  CascadedController successor;
+  successor.take_over(left_by(controller_, estimate_));
+  const auto step = [&] {
+    estimate_.stamp += std::chrono::microseconds(2500);
+    return successor.run(kSomething, false, estimate_, status_);
+  };
+  step();
+  EXPECT_EQ(successor.phase(), kTakeOff);
+  EXPECT_EQ(successor.memory().point_N.x(), 3.0) << "over the place where it began";
+  // WHEN it has come within half a metre of 2 m above the beginning THEN it holds, not 2 m further up
+  estimate_.p_NB_N.z() = -11.6;
+  step();
+  EXPECT_EQ(successor.phase(), kHold);
+  EXPECT_EQ(successor.memory().point_N.z(), -12.0);
+}
+
+TEST_F(CascadedControllerTest, KeepsTheMotorsStillOnTheGroundAfterItsPredecessorsLanding) {
+  fly_offboard();
+  ask(FlightWish::kLand);
+  run_for(2.0);
+  ASSERT_EQ(std::get<PassThroughCommand>(run()).thrust, 0.0);
+  CascadedController successor;
+  successor.take_over(left_by(controller_, estimate_));
+  estimate_.stamp += std::chrono::microseconds(2500);
+  EXPECT_EQ(std::get<PassThroughCommand>(successor.run(kSomething, false, estimate_, status_)).thrust, 0.0);
+  EXPECT_EQ(successor.memory().launch_N, Vector3(3.0, 4.0, 0.0));
 }
 
 }  // namespace

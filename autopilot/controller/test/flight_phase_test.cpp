@@ -8,12 +8,14 @@ namespace ironbird::autopilot {
 namespace {
 
 using enum FlightPhase;
+using enum PhaseCause;
 
 struct Row {
   const char* name;
   FlightPhase from;
   PhaseInputs in;
   FlightPhase to;
+  PhaseCause cause = PhaseCause::kPlanned;
 };
 
 PhaseInputs armed(void (*change)(PhaseInputs&)) {
@@ -39,10 +41,16 @@ PhaseInputs everything_but_armed() {
 class FlightPhaseTest : public ::testing::TestWithParam<Row> {};
 
 TEST_P(FlightPhaseTest, GoesWhereTheTableSays) {
-  EXPECT_EQ(next_phase(GetParam().from, GetParam().in), GetParam().to);
+  EXPECT_EQ(next_phase(GetParam().from, GetParam().in), (PhaseStep{GetParam().to, GetParam().cause}));
 }
 
 const auto kNothing = [](PhaseInputs&) {};
+const auto no_position = [](PhaseInputs& i) {
+  i.position_known = false;
+  i.setpoint_valid = i.hold_over = true;
+};
+const auto no_estimate = [](PhaseInputs& i) { i.estimate_usable = false; };
+const auto rests = [](PhaseInputs& i) { i.rests_with_pilot = i.setpoint_valid = i.hold_over = true; };
 
 INSTANTIATE_TEST_SUITE_P(
     Rows, FlightPhaseTest,
@@ -89,7 +97,53 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"TakesOffAgainFromTheGround", kLanding,
             armed([](PhaseInputs& i) { i.on_ground = i.take_off_wanted = true; }), kTakeOff},
         Row{"DoesNotTakeOffWhileDescending", kLanding,
-            armed([](PhaseInputs& i) { i.take_off_wanted = true; }), kLanding}),
+            armed([](PhaseInputs& i) { i.take_off_wanted = true; }), kLanding},
+        Row{"NoTakeOffWithoutAPosition", kDisarmed, armed([](PhaseInputs& i) {
+              i.take_off_wanted = true;
+              i.position_known = false;
+            }),
+            kDisarmed},
+        Row{"ClimbEndsWithoutAPosition", kTakeOff, armed(no_position), kLevelDescent, kPositionUnknown},
+        Row{"HoldEndsWithoutAPosition", kHold, armed(no_position), kLevelDescent, kPositionUnknown},
+        Row{"OffboardEndsWithoutAPosition", kOffboard, armed(no_position), kLevelDescent, kPositionUnknown},
+        Row{"LandingGoesOnLevelWithoutAPosition", kLanding, armed(no_position), kLevelDescent,
+            kPositionUnknown},
+        Row{"SinksLevel", kLevelDescent, armed(no_position), kLevelDescent},
+        Row{"LandsWhenThePositionIsBack", kLevelDescent,
+            armed([](PhaseInputs& i) { i.setpoint_valid = i.hold_over = true; }), kLanding, kPositionKnown},
+        Row{"HoldsByRequestWhenThePositionIsBack", kLevelDescent,
+            armed([](PhaseInputs& i) { i.resume_wanted = true; }), kHold, kPositionKnown},
+        Row{"ClimbFallsSilent", kTakeOff, armed(no_estimate), kSilent, kEstimateLost},
+        Row{"HoldFallsSilent", kHold, armed(no_estimate), kSilent, kEstimateLost},
+        Row{"OffboardFallsSilent", kOffboard, armed(no_estimate), kSilent, kEstimateLost},
+        Row{"LandingFallsSilent", kLanding, armed(no_estimate), kSilent, kEstimateLost},
+        Row{"LevelDescentFallsSilent", kLevelDescent, armed(no_estimate), kSilent, kEstimateLost},
+        Row{"OnTheGroundItNeedsNoEstimate", kLanding, armed([](PhaseInputs& i) {
+              i.estimate_usable = false;
+              i.on_ground = true;
+            }),
+            kLanding},
+        Row{"StaysSilent", kSilent,
+            armed([](PhaseInputs& i) { i.setpoint_valid = i.hold_over = i.take_off_wanted = true; }),
+            kSilent},
+        Row{"LandsAfterAShortSilence", kSilent, armed([](PhaseInputs& i) { i.silence_short = true; }),
+            kLanding, kEstimateBack},
+        Row{"SinksLevelAfterAShortSilence", kSilent, armed([](PhaseInputs& i) {
+              i.silence_short = true;
+              i.position_known = false;
+            }),
+            kLevelDescent, kEstimateBack},
+        Row{"LandsAfterALongSilenceByRequest", kSilent,
+            armed([](PhaseInputs& i) { i.landing_wanted = true; }), kLanding, kEstimateBack},
+        Row{"HoldsAfterALongSilenceByRequest", kSilent, armed([](PhaseInputs& i) { i.resume_wanted = true; }),
+            kHold},
+        Row{"EndsALandingByRequest", kLanding, armed([](PhaseInputs& i) { i.resume_wanted = true; }), kHold},
+        Row{"ClimbEndsAtRest", kTakeOff, armed(rests), kDisarmed, kRestsWithPilot},
+        Row{"HoldEndsAtRest", kHold, armed(rests), kDisarmed, kRestsWithPilot},
+        Row{"OffboardEndsAtRest", kOffboard, armed(rests), kDisarmed, kRestsWithPilot},
+        Row{"LandingEndsAtRest", kLanding, armed(rests), kDisarmed, kRestsWithPilot},
+        Row{"LevelDescentEndsAtRest", kLevelDescent, armed(rests), kDisarmed, kRestsWithPilot},
+        Row{"SilenceEndsAtRest", kSilent, armed(rests), kDisarmed, kRestsWithPilot}),
     [](const auto& case_) { return case_.param.name; });
 
 TEST(TouchDownTest, IsFeltWhenNothingMovesUnderLittleLiftForAWhile) {

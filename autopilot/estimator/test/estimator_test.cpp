@@ -147,6 +147,15 @@ TEST(ExternalPoseTest, CarriesALatePoseToThePresent) {
   EXPECT_NEAR(x.heading, 0.05, kRoundOff);
 }
 
+TEST(ExternalPoseTest, SaysLostWhenThePoseIsVeryOld) {
+  ExternalPoseEstimator estimator;
+  SensorFrame frame = frame_at(0);
+  frame.external_pose = ExternalPose{};
+  estimator.run(frame);
+  EXPECT_EQ(estimator.run(frame_at(900)).health, Health::kDegraded);
+  EXPECT_EQ(estimator.run(frame_at(1100)).health, Health::kLost);
+}
+
 TEST(ExternalPoseTest, SaysDegradedWhenThePoseIsOld) {
   ExternalPoseEstimator estimator;
   SensorFrame frame = frame_at(0);

@@ -309,6 +309,57 @@ TEST_P(FilterTest, BridgesAGapInTheImu) {
   EXPECT_LT(position_error(), kGoodPosition);
 }
 
+TEST_P(FilterTest, SaysThatThePositionIsNotKnownAfterALongGnssLoss) {
+  fly(20.0);
+  EXPECT_TRUE(x.position_known);
+  EXPECT_LT(x.position_age, 0.2);
+  sensors.gnss_on = false;
+  fly(14.5);  // the default of gnss.coast is 15 s
+  EXPECT_TRUE(x.position_known);
+  fly(1.0);
+  EXPECT_FALSE(x.position_known);
+  EXPECT_EQ(x.health, Health::kDegraded) << "height and attitude are still good";
+  fly(60.0);
+  EXPECT_EQ(x.health, Health::kDegraded);
+  EXPECT_NEAR(x.p_NB_N.z(), sensors.truth().p_N.z(), 2.0) << "m, on the barometer";
+  sensors.gnss_on = true;
+  fly(1.0);
+  EXPECT_TRUE(x.position_known);
+}
+
+TEST_P(FilterTest, IsLostWithoutSatellitesAndBarometer) {
+  fly(20.0);
+  sensors.gnss_on = sensors.baro_on = false;
+  fly(14.5);
+  EXPECT_EQ(x.health, Health::kDegraded);
+  fly(1.0);
+  EXPECT_EQ(x.health, Health::kLost) << "nothing has measured the height for 15 s";
+}
+
+TEST_P(FilterTest, DoesNotTrustItsAttitudeAfterALongGapInTheImu) {
+  fly(20.0);
+  for (int i = 0; i < 2000; ++i) sensors.next();  // 5 s lost
+  step(sensors.next());
+  EXPECT_EQ(x.health, Health::kLost);
+  fly(15.0);
+  EXPECT_EQ(x.health, Health::kGood) << "it has sought its attitude anew";
+  EXPECT_LT(angle_error(), 3.0 * kGoodAngle);
+}
+
+TEST_P(FilterTest, HandsOnForHowLongThePositionWasNotMeasured) {
+  fly(20.0);
+  sensors.gnss_on = false;
+  fly(10.0);
+  Signals signals;
+  signals.estimate = x;
+  make(AidingParams{}, true);
+  estimator->take_over(signals);
+  fly(4.0);
+  EXPECT_TRUE(x.position_known);
+  fly(1.5);
+  EXPECT_FALSE(x.position_known) << "an exchange is no fix";
+}
+
 TEST_P(FilterTest, WorksAtHalfTheRateOfTheImu) {
   estimator->set_period(std::chrono::milliseconds(5));
   fly(60.0);

@@ -163,13 +163,10 @@ TEST_F(WaypointPlannerTest, CountsHoldsAndReleases) {
 
 TEST_F(WaypointPlannerTest, ReturnsToWhereTheVehicleTookOffAndLandsThere) {
   // GIVEN a take-off at (3, 4) and a flight to a place below the height of return
-  run();
-  estimate_.p_NB_N << 3.0, 4.0, -1.0;
-  estimate_.heading = 0.5;
-  flight_.phase = FlightPhase::kTakeOff;
-  run();
+  flight_.memory.launched = true;
+  flight_.memory.launch_N << 3.0, 4.0, -1.0;
+  flight_.memory.launch_heading = 0.5;
   estimate_.p_NB_N << 50.0, 60.0, -2.0;
-  flight_.phase = FlightPhase::kOffboard;
   run();
   // WHEN asked to return
   EXPECT_TRUE(ask(ReturnToLaunch{}));
@@ -192,6 +189,16 @@ TEST_F(WaypointPlannerTest, TakesOverTheRouteOfItsPredecessor) {
   EXPECT_EQ(run().revision, 9u);
   ask(AddWaypoint{at(3, 0, 0), {}});
   EXPECT_EQ(run().waypoints[2].id, 8u);
+}
+
+TEST_F(WaypointPlannerTest, ReturnsToTheLaunchThatItsPredecessorSaw) {
+  Signals signals;
+  signals.flight.memory.launched = true;
+  signals.flight.memory.launch_N << 3.0, 4.0, -1.0;
+  planner_.take_over(signals);
+  estimate_.p_NB_N << 50.0, 60.0, -2.0;
+  ASSERT_TRUE(ask(ReturnToLaunch{})) << "even before its first step";
+  EXPECT_EQ(run().waypoints[1].p_N, Vector3(3.0, 4.0, -6.0));
 }
 
 TEST_F(WaypointPlannerTest, ForgetsEverythingOnReset) {

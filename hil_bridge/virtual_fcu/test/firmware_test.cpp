@@ -311,6 +311,41 @@ TEST(FirmwareTelemetryTest, SaysTheControlModeOfTheRollChannel) {
 
 // ---- samples that are no numbers ----
 
+TEST(FirmwareTest, ControlsWithTheLastGoodSampleWhenOneIsAbsurd) {
+  for (const float absurd : {1e30F, -1e30F, std::numeric_limits<float>::infinity()}) {
+    FlyingBoard fcu;
+    fcu.imu_passes(100);
+    const auto before = fcu.board().outputs;
+    fcu.imu_pass({absurd, 0, 0}, {});
+    fcu.imu_pass({0, 0, -kGravity}, {0, absurd, 0});
+    fcu.board().baro = PressureInput{.pressure = absurd};
+    fcu.board().battery = BatteryInput{.voltage = absurd};
+    fcu.imu_passes(400);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(fcu.board().outputs[k], before[k], 0.05F) << absurd;
+    EXPECT_LT(std::fabs(fcu.firmware().battery().voltage()), 100.0F);
+  }
+}
+
+TEST(FirmwareTest, LeavesTheOutputsAsTheyAreWhileTheImuIsSilentEvenWhenDisarmed) {
+  FlyingBoard fcu;
+  fcu.frame().channels[2] = 0.6F;
+  fcu.rc_pass();
+  fcu.imu_passes(10);
+  const auto before = fcu.board().outputs;
+  ASSERT_GT(before[0], 0.1F);
+  // GIVEN no IMU sample, which is the heartbeat of the mixer, WHEN the pilot disarms
+  fcu.frame().channels[4] = 0.0F;
+  for (int i = 0; i < 100; ++i) {
+    fcu.wait(20000);
+    fcu.rc_pass();
+  }
+  EXPECT_FALSE(fcu.firmware().arming().armed());
+  EXPECT_EQ(fcu.board().outputs, before) << "as the firmware on a real board: only the plug helps";
+  // WHEN a sample comes THEN they stop
+  fcu.imu_pass();
+  EXPECT_EQ(fcu.board().outputs[0], 0.0F);
+}
+
 TEST(FirmwareTest, ControlsWithTheLastGoodSampleWhenOneIsNotANumber) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   FlyingBoard fcu;

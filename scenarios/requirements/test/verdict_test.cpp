@@ -212,6 +212,37 @@ TEST_F(JudgeTest, SeesPhasesArmingAndWaypointsAsEvents) {
   EXPECT_EQ(judge.events()[1].time, 0.01);
 }
 
+TEST_F(JudgeTest, SaysWhyThePhaseChangedWhenNobodyAskedForIt) {
+  Judge judge({}, table_, {&truth_, &signals_}, 10ms);
+  judge.observe(0ms);
+  signals_.flight.phase = autopilot::FlightPhase::kLevelDescent;
+  signals_.flight.cause = autopilot::PhaseCause::kPositionUnknown;
+  judge.observe(10ms);
+  ASSERT_EQ(judge.events().size(), 2U);
+  EXPECT_EQ(judge.events()[0].kind + ":" + judge.events()[0].text, "cause:position_unknown");
+  EXPECT_EQ(judge.events()[1].text, "level_descent");
+}
+
+TEST_F(JudgeTest, MakesOneEventOfAHealthThatFlaps) {
+  using autopilot::Health;
+  Judge judge({}, table_, {&truth_, &signals_}, 10ms);
+  signals_.estimate.health = Health::kGood;
+  judge.observe(0ms);
+  for (int i = 1; i <= 1000; ++i) {
+    signals_.estimate.health = i % 3 == 0 ? Health::kDegraded : Health::kGood;
+    judge.observe(i * 10ms);
+  }
+  ASSERT_EQ(judge.events().size(), 2U) << "good, degraded";
+  signals_.estimate.health = Health::kGood;
+  for (int i = 1001; i <= 1100; ++i) judge.observe(i * 10ms);
+  ASSERT_EQ(judge.events().size(), 3U);
+  EXPECT_EQ(judge.events()[2].text, "good");
+  EXPECT_NEAR(judge.events()[2].time, 10.5, 0.011) << "half a second after the last fault";
+  signals_.estimate.health = Health::kLost;
+  judge.observe(1101 * 10ms);
+  EXPECT_EQ(judge.events()[3].time, 11.01) << "worse is said at once";
+}
+
 TEST_F(JudgeTest, LetsAChecksWindowOpenAtItsOwnEvents) {
   CheckConfig config;
   config.name = "low in offboard";

@@ -220,6 +220,14 @@ TEST_F(VehicleTest, EmptiesItsBattery) {
   }
   EXPECT_NEAR(vehicle.battery_charge_used(), charge, 1e-9 * charge);
   EXPECT_LT(last_voltage, 6 * 3.3);
+  // Beyond empty the voltage collapses within a hundredth of the capacity.
+  vehicle.set_battery_charge(0.0);
+  vehicle.finish_step(1e-6, RigidBodyState{}, slow);
+  EXPECT_GT(vehicle.battery_voltage(), 6 * 3.0);
+  charge = vehicle.battery_charge_used();
+  for (int i = 0; i < 60; ++i) vehicle.finish_step(1.0, RigidBodyState{}, slow);
+  EXPECT_LE(vehicle.battery_charge_used() - charge, 0.02 * params.battery.capacity) << "there is no more";
+  EXPECT_LT(vehicle.battery_voltage(), 6 * 2.0);
 }
 
 TEST_F(VehicleTest, FollowsAChargeThatIsSet) {
