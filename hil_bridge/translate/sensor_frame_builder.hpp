@@ -10,8 +10,9 @@ namespace ironbird::hil_bridge {
 /// Gathers the FCU's messages into the autopilot's sensor frames: one frame for each IMU message, with the
 /// slower sensors that arrived since the frame before.
 ///
-/// Stamps: the wire carries those of the IMU and of GNSS. Magnetometer, barometer and status have none and
-/// get the stamp of the latest IMU message: a real loss of information, which the simulated link shares.
+/// Stamps: the wire carries those of the IMU and of GNSS. Magnetometer and barometer have none and get the
+/// stamp of the latest IMU message: a real loss of information, which the simulated link shares. The status
+/// gets the time of its arrival.
 class SensorFrameBuilder {
  public:
   /// Takes one message. @return a frame when the message was an IMU sample; valid until the next call

@@ -1,5 +1,6 @@
 #include "hil_bridge/virtual_fcu/attitude_filter.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ironbird::hil_bridge::virtual_fcu {
@@ -37,6 +38,13 @@ Rows rows_of(const AttitudeQ& q) {
        1.0F - 2.0F * (q.x * q.x + q.y * q.y)}};
 }
 
+/// Far from a unit quaternion the correction overflows, and with it the attitude for ever.
+bool is_usable(const AttitudeQ& q) {
+  constexpr float kGreatestSquaredNorm = 1e6F;
+  const float squared_norm = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  return squared_norm < kGreatestSquaredNorm;  // false for a NaN
+}
+
 Triple cross(const Triple& a, const Triple& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -71,6 +79,10 @@ void AttitudeFilter::reset() {
   external_.reset();
 }
 
+void AttitudeFilter::set_external(const AttitudeQ& q_NB) {
+  if (is_usable(q_NB)) external_ = q_NB;
+}
+
 void AttitudeFilter::step(const ImuInput& imu, float dt) {
   if (!started_) {
     started_ = true;
@@ -80,7 +92,8 @@ void AttitudeFilter::step(const ImuInput& imu, float dt) {
   }
   low_pass(imu);
   Correction correction = accelerometer_correction(imu.stamp_us);
-  if (external_) correction = external_correction(imu.stamp_us, dt);
+  // A step of no length has no weight to give it: it waits for the next one.
+  if (external_ && dt > 0.0F) correction = external_correction(imu.stamp_us, dt);
   float bias_gain = bias_gain_;
   if (imu.stamp_us < fast_until_us_) {
     correction.gain = kInitialGainFactor * accelerometer_gain_;
@@ -189,7 +202,8 @@ void AttitudeFilter::propagate(const Triple& rate, float dt) {
 void AttitudeFilter::publish() {
   const AttitudeQ& q = attitude_.q_NB;
   attitude_.roll = std::atan2(2.0F * (q.w * q.x + q.y * q.z), 1.0F - 2.0F * (q.x * q.x + q.y * q.y));
-  attitude_.pitch = std::asin(2.0F * (q.w * q.y - q.z * q.x));
+  // Rounding takes the sine of a vertical nose just above one.
+  attitude_.pitch = std::asin(std::clamp(2.0F * (q.w * q.y - q.z * q.x), -1.0F, 1.0F));
   attitude_.heading = std::atan2(2.0F * (q.w * q.z + q.x * q.y), 1.0F - 2.0F * (q.y * q.y + q.z * q.z));
   attitude_.w_NB_B = {rate_.x - bias_.x, rate_.y - bias_.y, rate_.z - bias_.z};
 }

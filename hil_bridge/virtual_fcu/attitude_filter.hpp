@@ -61,8 +61,9 @@ class AttitudeFilter {
   /// After a gyro calibration.
   void reset_bias() { bias_ = {}; }
 
-  /// Replaces the accelerometer in the next step.
-  void set_external(const AttitudeQ& q_NB) { external_ = q_NB; }
+  /// Replaces the accelerometer in the next step that has a length. Taken as it is, not normalised; one that
+  /// is not finite, or longer than 1000, is refused.
+  void set_external(const AttitudeQ& q_NB);
 
   /// Takes one corrected sample. The first only starts the clock.
   /// @param dt  time since the previous sample, s

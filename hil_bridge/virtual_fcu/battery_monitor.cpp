@@ -1,10 +1,16 @@
 #include "hil_bridge/virtual_fcu/battery_monitor.hpp"
 
+#include <cmath>
+
 namespace ironbird::hil_bridge::virtual_fcu {
 
 namespace {
 
 constexpr float kBootLowPass = 0.995F;
+
+void low_pass(float alpha, float measured, float& filtered) {
+  if (std::isfinite(measured)) filtered = (1.0F - alpha) * measured + alpha * filtered;
+}
 
 }  // namespace
 
@@ -29,8 +35,8 @@ void BatteryMonitor::change_filters(const ParameterStore& parameters) {
 }
 
 void BatteryMonitor::add(const BatteryInput& sample) {
-  voltage_ = (1.0F - voltage_lpf_) * (sample.voltage * voltage_factor_) + voltage_lpf_ * voltage_;
-  current_ = (1.0F - current_lpf_) * (sample.current * current_factor_) + current_lpf_ * current_;
+  low_pass(voltage_lpf_, sample.voltage * voltage_factor_, voltage_);
+  low_pass(current_lpf_, sample.current * current_factor_, current_);
 }
 
 }  // namespace ironbird::hil_bridge::virtual_fcu

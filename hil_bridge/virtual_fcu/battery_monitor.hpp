@@ -16,6 +16,7 @@ class BatteryMonitor {
   /// Takes over the low-pass constants: only when they change.
   void change_filters(const ParameterStore& parameters);
 
+  /// A voltage or current that is not finite changes nothing; each is judged for itself.
   void add(const BatteryInput& sample);
 
   float voltage() const { return voltage_; }  ///< V

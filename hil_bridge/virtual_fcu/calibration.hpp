@@ -57,8 +57,9 @@ class AccelerometerCalibration {
   Triple greatest_;
 };
 
-/// Averages a pressure: 128 samples more than 20 ms apart are passed over, 127 averaged, and the next one
-/// ends it. When the variance is too great it starts over.
+/// Averages a pressure, looked at once in every turn of the firmware's loop and taken when more than 20 ms
+/// have passed: 128 are passed over, 127 averaged, and the next one ends it. With turns of 2.5 ms that is
+/// 256 times 22.5 ms, 5.76 s. When the variance is too great it starts over.
 class PressureCalibration {
  public:
   /// @param greatest_variance  Pa^2
@@ -68,7 +69,8 @@ class PressureCalibration {
 
   void start();
   bool running() const { return running_; }
-  /// @param now_ms  board clock
+  /// @param pressure  the latest, new or not, Pa
+  /// @param now_ms    board clock
   Outcome add(float pressure, std::uint32_t now_ms);
   /// Pa, of the last finished run.
   float mean() const { return mean_; }

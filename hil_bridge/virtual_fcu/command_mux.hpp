@@ -48,8 +48,6 @@ class CommandMux {
   void update(const Rc& rc, std::uint32_t now_ms);
   /// Overwrites the combination with the failsafe command; the override word stays as it is.
   void fly_failsafe() { combined_ = failsafe_; }
-  /// Interprets the sticks and nothing else.
-  void interpret(const Rc& rc);
 
   const Command& pilot() const { return pilot_; }
   const Command& companion() const { return companion_; }
@@ -59,6 +57,7 @@ class CommandMux {
   bool offboard() const;
 
  private:
+  void interpret(const Rc& rc);
   std::uint16_t stick_overrides(const Rc& rc, std::uint32_t now_ms);
   std::uint16_t throttle_overrides(const Rc& rc) const;
   void combine();

@@ -63,15 +63,22 @@ void Firmware::read_sensors(Board& board) {
     if (sound) believed_imu_ = imu_;
     believed_imu_.stamp_us = imu_.stamp_us;
   }
-  if (board.baro && is_atmospheric(board.baro->pressure)) {
-    density_ = density_of(board.baro->pressure);
-    if (baro_calibration_.running()) calibrate_pressure(baro_calibration_, board.baro->pressure);
-  }
-  if (board.differential_pressure && std::isfinite(board.differential_pressure->pressure) &&
-      airspeed_calibration_.running()) {
-    calibrate_pressure(airspeed_calibration_, board.differential_pressure->pressure);
-  }
+  read_pressures(board);
   if (board.battery && std::fabs(board.battery->voltage) <= kMostVoltage) battery_.add(*board.battery);
+}
+
+void Firmware::read_pressures(const Board& board) {
+  if (board.baro && is_atmospheric(board.baro->pressure)) {
+    pressure_ = board.baro->pressure;
+    density_ = density_of(*pressure_);
+  }
+  if (board.differential_pressure && std::isfinite(board.differential_pressure->pressure)) {
+    differential_pressure_ = board.differential_pressure->pressure;
+  }
+  if (pressure_ && baro_calibration_.running()) calibrate_pressure(baro_calibration_, *pressure_);
+  if (differential_pressure_ && airspeed_calibration_.running()) {
+    calibrate_pressure(airspeed_calibration_, *differential_pressure_);
+  }
 }
 
 void Firmware::control(Board& board) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,7 +76,7 @@ class Firmware final : private ParameterStore::Listener {
 
   std::uint32_t now_ms() const { return static_cast<std::uint32_t>(now_us_ / 1000U); }
   void read_sensors(Board& board);
-  void read_imu(const ImuInput& raw);
+  void read_pressures(const Board& board);
   void control(Board& board);
   void stream(const Board& board);
   void stream_slow_sensors(const Board& board);
@@ -132,6 +133,8 @@ class Firmware final : private ParameterStore::Listener {
   ImuInput believed_imu_;  // the same, or the last one that was a number
   std::uint64_t imu_before_us_ = 0;
   bool imu_seen_ = false;
+  std::optional<float> pressure_;               // the latest that makes sense, Pa
+  std::optional<float> differential_pressure_;  // the same
   float density_ = kSeaLevelDensity;
   std::array<float, kMixerInputs> mixer_inputs_{};
   bool rc_decoded_ = false;

@@ -157,7 +157,7 @@ simulator::RotorCommands FirmwareHost::commands() const {
   const double step = config_.pwm_resolution;
   for (std::size_t k = 0; k < commands.throttle.size(); ++k) {
     const double output = static_cast<double>(board_.outputs[k]);
-    if (!(output > 0.0)) continue;  // also what a pulse generator makes of a NaN
+    if (!(output > 0.0)) continue;
     commands.throttle[k] = step > 0.0 ? std::floor(output / step) * step : output;
   }
   return commands;

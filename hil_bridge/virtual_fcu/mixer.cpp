@@ -163,10 +163,12 @@ void Mixer::scale_motors(Row& row, TextLog& log) const {
 
 void Mixer::write(std::size_t pin, OutputKind kind, float value, bool armed) {
   if (kind == OutputKind::kServo) {
-    outputs_[pin] = 0.5F * std::clamp(value, -1.0F, 1.0F) + 0.5F;
+    const float output = 0.5F * std::clamp(value, -1.0F, 1.0F) + 0.5F;
+    if (std::isfinite(output)) outputs_[pin] = output;
   } else if (kind == OutputKind::kMotor) {
     const float least = spin_when_armed_ ? idle_ : 0.0F;
-    outputs_[pin] = !armed ? 0.0F : value > 1.0F ? 1.0F : value < least ? least : value;
+    const float output = !armed ? 0.0F : value > 1.0F ? 1.0F : value < least ? least : value;
+    outputs_[pin] = std::isfinite(output) ? output : 0.0F;
   }
 }
 

@@ -45,12 +45,12 @@ class Mixer {
   /// Stores the companion's auxiliary commands; a message with an illegal type is dropped whole.
   void take(const rosflight::RosflightAuxCmd& message);
 
-  /// Computes all outputs.
+  /// Computes all outputs. What is not a number makes no pulse: a motor stops, a servo stays where it is.
   /// @param u  forces x y z, torques x y z, four free inputs
   void mix(std::array<float, kMixerInputs> u, const MixerConditions& conditions, TextLog& log);
 
   bool valid() const { return valid_; }
-  /// 0..1; pins of kind auxiliary hold their last value.
+  /// 0..1, always finite; pins of kind auxiliary hold their last value.
   const std::array<float, kOutputs>& outputs() const { return outputs_; }
 
  private:

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <string>
 
 namespace ironbird::hil_bridge::virtual_fcu {
 namespace {
@@ -67,6 +69,47 @@ TEST_F(AttitudeControllerTest, LetsPassThroughValuesPassAndAddsEquilibriumTorque
     const float added = i == kRoll ? 0.01F : i == kPitch ? 0.02F : i == kYaw ? 0.03F : 0.0F;
     EXPECT_NEAR(u[i], 0.1F * static_cast<float>(i) + added, kRoundOff) << i;
   }
+}
+
+TEST_F(AttitudeControllerTest, GivesEveryLoopItsOwnGains) {
+  struct Row {
+    const char* loop;
+    std::size_t axis;
+    ChannelKind kind;
+  };
+  for (const Row& row :
+       {Row{"PID_ROLL_RATE", kRoll, ChannelKind::kRate}, Row{"PID_PITCH_RATE", kPitch, ChannelKind::kRate},
+        Row{"PID_YAW_RATE", kYaw, ChannelKind::kRate}, Row{"PID_ROLL_ANG", kRoll, ChannelKind::kAngle},
+        Row{"PID_PITCH_ANG", kPitch, ChannelKind::kAngle}}) {
+    parameters.set_defaults();
+    controller = AttitudeController();
+    attitude = {};
+    command = {};
+    const std::string loop = row.loop;
+    parameters.set(find_parameter(loop + "_P"), 0.5F);
+    parameters.set(find_parameter(loop + "_I"), 2.0F);
+    parameters.set(find_parameter(loop + "_D"), 0.3F);
+    rebuild();
+    command.u[row.axis] = {.value = 0.4F, .kind = row.kind, .active = true};
+    command.u[kForceZ].value = 0.5F;
+    EXPECT_NEAR(run()[row.axis], 0.5F * 0.4F + 2.0F * 0.4F * kDt, kRoundOff) << loop << " P and I";
+    // A rate that jumps to 0.2 rad/s: the angle loops take it as it is, the others differentiate it.
+    attitude.w_NB_B = {0.2F, 0.2F, 0.2F};
+    command.u[row.axis].value = row.kind == ChannelKind::kRate ? 0.2F : 0.0F;
+    const float derivative = row.kind == ChannelKind::kRate ? 2.0F / (2.0F * 0.05F + kDt) * 0.2F : 0.2F;
+    EXPECT_NEAR(run(false)[row.axis], -0.3F * derivative, 1e-5F) << loop << " D";
+  }
+}
+
+TEST_F(AttitudeControllerTest, FindsTheMaximumThrustAtTheDensityOfTheDay) {
+  controller.rebuild(parameters, 1.0F);
+  const double four_pi_squared = 4.0 * std::numbers::pi * std::numbers::pi;
+  const double a = 0.042 * 1.0 * std::pow(0.381, 5) * 0.0045 / (four_pi_squared * 0.01706);
+  const double b = 0.01706;
+  const double c = 1.5 * 0.042 - 25.0;
+  const double speed = (-b + std::sqrt(b * b - 4.0 * a * c)) / (2.0 * a);
+  const double thrust = 4.0 * 1.0 * std::pow(0.381, 4) * 0.075 * speed * speed / four_pi_squared;
+  EXPECT_NEAR(controller.maximum_thrust(), thrust, 0.01);
 }
 
 TEST_F(AttitudeControllerTest, TreatsAnAngleOnYawAsAValue) {

@@ -170,6 +170,23 @@ TEST_F(AttitudeFilterTest, AgreesWithNormalGainsWithoutSmoothingAndWithEulerStep
   EXPECT_LT(distance_to(reference), kSinglePrecision);
 }
 
+TEST_F(AttitudeFilterTest, LowPassesEachSensorWithItsOwnConstant) {
+  parameters.set(parameter("ACC_LPF"), 0.6F);
+  parameters.set(parameter("GYRO_XY_LPF"), 0.2F);
+  parameters.set(parameter("GYRO_Z_LPF"), 0.7F);
+  parameters.set(parameter("FILT_ACC_KP"), 0.3F);
+  parameters.set(parameter("FILT_KI"), 0.05F);
+  restart();
+  Settings settings;
+  settings.acc_lpf = 0.6;
+  settings.gyro_xy_lpf = 0.2;
+  settings.gyro_z_lpf = 0.7;
+  settings.acc_kp = 0.3;
+  settings.ki = 0.05;
+  ReferenceFilter reference(settings);
+  EXPECT_LT(distance_to(reference), kSinglePrecision);
+}
+
 TEST_F(AttitudeFilterTest, StaysLevelAtRest) {
   for (int k = 0; k < 400; ++k) step({0, 0, -kG}, Vector3::Zero());
   EXPECT_EQ(filter.attitude().q_NB.w, 1.0F);
@@ -273,6 +290,34 @@ TEST_F(AttitudeFilterTest, WeighsAnExternalAttitudeByTheTimeSinceTheLast) {
   EXPECT_NEAR(filter.attitude().heading, once, 2e-5) << "it acts in one step only";
 }
 
+TEST_F(AttitudeFilterTest, TakesTenfoldAccelerometerGainsForAnExternalAttitudeToo) {
+  parameters.set(parameter("FILT_ACC_KP"), 0.4F);
+  parameters.set(parameter("FILT_KI"), 0.02F);
+  restart();
+  filter.set_external({static_cast<float>(std::cos(0.15)), 0, 0, static_cast<float>(std::sin(0.15))});
+  step({0, 0, -kG}, Vector3::Zero());
+  const double error = 2.0 * std::sin(0.3);  // X and Y rows; positive: the estimate must turn on
+  EXPECT_NEAR(filter.bias().z, -10.0 * 0.02 * error * kDt, 1e-7);
+  EXPECT_NEAR(filter.attitude().heading, (10.0 * 0.4 * error - static_cast<double>(filter.bias().z)) * kDt,
+              1e-6);
+}
+
+TEST_F(AttitudeFilterTest, FollowsAnExternalRollAndPitch) {
+  parameters.set(parameter("FILT_INIT_T"), 0);
+  parameters.set(parameter("FILT_KI"), 0.0F);
+  restart();
+  const Quaternion outside =
+      Eigen::AngleAxisd(-0.1, Vector3::UnitY()) * Eigen::AngleAxisd(0.2, Vector3::UnitX());
+  for (int k = 0; k < 2000; ++k) {
+    const Eigen::Quaternionf q = outside.cast<float>();
+    filter.set_external({q.w(), q.x(), q.y(), q.z()});
+    step({0, 0, -kG}, Vector3::Zero());
+  }
+  EXPECT_NEAR(filter.attitude().roll, 0.2, 1e-3);
+  EXPECT_NEAR(filter.attitude().pitch, -0.1, 1e-3);
+  EXPECT_NEAR(filter.attitude().heading, 0.0, 1e-3);
+}
+
 TEST_F(AttitudeFilterTest, SurvivesAndCountsAnAccelerometerExactlyUpsideDown) {
   parameters.set(parameter("ACC_LPF"), 0.0F);
   restart();
@@ -295,6 +340,21 @@ TEST_F(AttitudeFilterTest, ReproducesTheDivisionByZeroOnRequest) {
   filter.reset();
   for (int k = 0; k < 3; ++k) step({0, 0, -kG}, Vector3::Zero());
   EXPECT_EQ(filter.attitude().q_NB.w, 1.0F) << "until a reset";
+}
+
+TEST_F(AttitudeFilterTest, KnowsThePitchOfAVerticalNose) {
+  parameters.set(parameter("FILT_USE_ACC"), 0);
+  double steepest = 0.0;
+  for (int run = 0; run < 200; ++run) {
+    restart();
+    const double rate = 2.0 + 0.01 * run;
+    for (int k = 0; k < 400; ++k) {
+      step({0, 0, -kG}, {0.0, rate, 0.0});
+      ASSERT_TRUE(std::isfinite(filter.attitude().pitch)) << "at " << rate << " rad/s, step " << k;
+      steepest = std::max(steepest, static_cast<double>(filter.attitude().pitch));
+    }
+  }
+  EXPECT_NEAR(steepest, std::numbers::pi / 2.0, 1e-3);  // the arc sine knows a float32 that well near one
 }
 
 TEST_F(AttitudeFilterTest, KeepsTheScalarPartPositiveThroughAFullTurn) {

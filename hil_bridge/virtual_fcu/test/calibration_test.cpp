@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
+#include <string>
 
 #include "hil_bridge/virtual_fcu/battery_monitor.hpp"
 #include "hil_bridge/virtual_fcu/sensor_corrections.hpp"
@@ -153,6 +156,54 @@ TEST_F(SensorCorrectionsTest, TurnsPassivelyByTheMountingAngles) {
   EXPECT_NEAR(inverted.acceleration.z, -9.8F, 1e-5F);
   EXPECT_NEAR(inverted.angular_velocity.x, 1.0F, 1e-6F);
   EXPECT_NEAR(inverted.angular_velocity.y, -2.0F, 1e-5F);
+}
+
+TEST_F(SensorCorrectionsTest, TurnsInertialUnitAndMagnetometerByAnglesOfTheirOwn) {
+  const auto set = [&](const char* first, double roll, double pitch, double yaw) {
+    const ParameterId id = find_parameter(first);
+    parameters.set(id, static_cast<float>(roll));
+    parameters.set(id + 1, static_cast<float>(pitch));
+    parameters.set(id + 2, static_cast<float>(yaw));
+  };
+  const auto turned = [](double roll, double pitch, double yaw, const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    const Eigen::Quaterniond q = Eigen::AngleAxisd(yaw * kDegree, Eigen::Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(pitch * kDegree, Eigen::Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(roll * kDegree, Eigen::Vector3d::UnitX());
+    return q.conjugate() * v;
+  };
+  const auto expect = [](const Triple& found, const Eigen::Vector3d& wanted) {
+    EXPECT_NEAR(found.x, wanted.x(), 1e-6);
+    EXPECT_NEAR(found.y, wanted.y(), 1e-6);
+    EXPECT_NEAR(found.z, wanted.z(), 1e-6);
+  };
+  set("IMU_ROLL", 10, 20, 30);
+  set("MAG_ROLL", -40, 50, -60);
+  corrections.configure(parameters);
+  const ImuInput imu = corrections.rotated({.acceleration = {1, 2, 3}, .angular_velocity = {-1, 3, 2}});
+  expect(imu.acceleration, turned(10, 20, 30, {1, 2, 3}));
+  expect(imu.angular_velocity, turned(10, 20, 30, {-1, 3, 2}));
+  expect(corrections.magnetic({1, 2, 3}), turned(-40, 50, -60, {1, 2, 3}));
+}
+
+TEST_F(SensorCorrectionsTest, SubtractsEveryBiasFromItsOwnAxis) {
+  const char* kFirst[] = {"GYRO_X_BIAS", "ACC_X_BIAS", "ACC_X_TEMP_COMP", "MAG_X_BIAS"};
+  for (const char* first : kFirst) {
+    for (int axis = 0; axis < 3; ++axis) {
+      parameters.set_defaults();
+      parameters.set(find_parameter(first) + axis, 0.5F);
+      corrections.configure(parameters);
+      const ImuInput imu =
+          corrections.corrected({.acceleration = {}, .angular_velocity = {}, .temperature = 2.0F});
+      const Triple mag = corrections.magnetic({});
+      const std::string name = first;
+      const Triple& found = name[0] == 'G' ? imu.angular_velocity : name[0] == 'M' ? mag : imu.acceleration;
+      const float wanted = name == "ACC_X_TEMP_COMP" ? -1.0F : -0.5F;
+      EXPECT_EQ(found.x, axis == 0 ? wanted : 0.0F) << name;
+      EXPECT_EQ(found.y, axis == 1 ? wanted : 0.0F) << name;
+      EXPECT_EQ(found.z, axis == 2 ? wanted : 0.0F) << name;
+    }
+  }
 }
 
 TEST_F(SensorCorrectionsTest, TakesHardThenSoftIronOutOfTheField) {

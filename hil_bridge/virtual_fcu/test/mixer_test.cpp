@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <vector>
 
@@ -66,61 +65,6 @@ TEST_F(MixerTest, InvertsTheQuadX) {
   EXPECT_EQ(element(0, 0), 0.0F);
   EXPECT_EQ(element(2, 4), 0.0F);
   EXPECT_EQ(parameters.integer(parameter("PRI_MIXER_OUT_4")), 0);
-}
-
-class CannedMixerTest : public ::testing::TestWithParam<int> {};
-
-TEST_P(CannedMixerTest, IsAPseudoInverse) {
-  const CannedMixer canned = canned_mixer(GetParam());
-  const MixerMatrix inverse = inverted(canned.matrix);
-  Eigen::Matrix<double, 10, 10> a;
-  Eigen::Matrix<double, 10, 10> p;
-  for (int i = 0; i < 10; ++i) {
-    for (int j = 0; j < 10; ++j) {
-      a(i, j) = static_cast<double>(canned.matrix[i][j]);
-      p(j, i) = static_cast<double>(inverse[i][j]);
-    }
-  }
-  // The four conditions of Moore and Penrose.
-  EXPECT_LT((a * p * a - a).cwiseAbs().maxCoeff(), kSvd);
-  EXPECT_LT((p * a * p - p).cwiseAbs().maxCoeff(), 2.0 * kSvd);
-  EXPECT_LT((a * p - (a * p).transpose()).cwiseAbs().maxCoeff(), kSvd);
-  EXPECT_LT((p * a - (p * a).transpose()).cwiseAbs().maxCoeff(), kSvd);
-}
-
-class MultirotorMixerTest : public CannedMixerTest {};
-
-TEST_P(MultirotorMixerTest, PullsUpWithEveryMotorAndTurnsWithAlternatingOnes) {
-  const CannedMixer canned = canned_mixer(GetParam());
-  int motors = 0;
-  float roll = 0.0F;
-  float pitch = 0.0F;
-  for (std::size_t j = 0; j < 10; ++j) {
-    if (canned.kinds[j] != OutputKind::kMotor) continue;
-    ++motors;
-    EXPECT_EQ(canned.matrix[kYaw][j], j % 2 == 0 ? 1.0F : -1.0F);
-    roll += canned.matrix[kRoll][j];
-    pitch += canned.matrix[kPitch][j];
-  }
-  EXPECT_NEAR(roll, 0.0F, kRoundOff);
-  EXPECT_NEAR(pitch, 0.0F, kRoundOff);
-  for (std::size_t j = 0; j < static_cast<std::size_t>(motors); ++j) {
-    EXPECT_NEAR(canned.matrix[kForceZ][j], -1.0F / static_cast<float>(motors), 5e-5F);  // four digits
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(All, CannedMixerTest, ::testing::Range(0, 11));
-INSTANTIATE_TEST_SUITE_P(Multirotors, MultirotorMixerTest, ::testing::Range(1, 9));
-
-TEST_F(MixerTest, KnowsTheMotorsAndRatesOfEveryId) {
-  constexpr int kMotors[] = {10, 4, 4, 6, 6, 8, 8, 6, 8, 1, 1};
-  for (int id = 0; id < 11; ++id) {
-    const CannedMixer canned = canned_mixer(id);
-    int motors = 0;
-    for (const OutputKind kind : canned.kinds) motors += kind == OutputKind::kMotor ? 1 : 0;
-    EXPECT_EQ(motors, kMotors[id]) << id;
-    EXPECT_EQ(canned.rates[0], id >= 1 && id <= 8 ? 490.0F : 50.0F) << id;
-  }
 }
 
 TEST_F(MixerTest, DrivesTheQuadXAsMeasured) {
@@ -253,6 +197,69 @@ TEST_F(MixerTest, DrivesServosAroundTheirCentreArmedOrNot) {
   EXPECT_NEAR(mixer.outputs()[4], 0.6F, kRoundOff);
 }
 
+TEST_F(MixerTest, TurnsEachSurfaceOfAWingByItsOwnFlag) {
+  struct Row {
+    const char* flag;
+    std::size_t pin;
+  };
+  for (const Row row : {Row{"REV_AILERON", 0}, Row{"REV_ELEVATOR", 1}, Row{"REV_RUDDER", 2}}) {
+    parameters.set_defaults();
+    parameters.set(parameter("FIXED_WING"), 1);
+    parameters.set(parameter("RC_F_AXIS"), 0);
+    parameters.set(find_parameter(row.flag), 1);
+    choose(kFixedWing);
+    mix({0, 0, 0, 0.2F, 0.4F, 0.6F});
+    const float plain[] = {0.6F, 0.7F, 0.8F};
+    for (std::size_t pin = 0; pin < 3; ++pin) {
+      EXPECT_NEAR(mixer.outputs()[pin], pin == row.pin ? 1.0F - plain[pin] : plain[pin], kRoundOff)
+          << row.flag << " at pin " << pin;
+    }
+    parameters.set(parameter("FIXED_WING"), 0);
+    mixer.configure(parameters);
+    mix({0.5F, 0, 0, 0.2F, 0.4F, 0.6F});
+    EXPECT_NEAR(mixer.outputs()[row.pin], plain[row.pin], kRoundOff) << "of a wing only";
+  }
+}
+
+TEST_F(MixerTest, NeitherScalesTheMotorsOfAWingNorDropsItsYaw) {
+  parameters.set(parameter("FIXED_WING"), 1);
+  parameters.set(parameter("RC_F_AXIS"), 0);
+  parameters.set(parameter("PRI_MIXER_OUT_0"), 2);
+  parameters.set(parameter("PRI_MIXER_OUT_1"), 2);
+  parameters.set(parameter("PRI_MIXER_OUT_2"), 1);
+  parameters.set(primary_element(0, 0), 3.0F);
+  parameters.set(primary_element(0, 1), 0.5F);
+  parameters.set(primary_element(5, 2), 1.0F);
+  choose(kCustomMixer);
+  mix({1.0F, 0, 0, 0, 0, 0});
+  EXPECT_EQ(mixer.outputs()[0], 1.0F);
+  EXPECT_EQ(mixer.outputs()[1], 0.5F);
+  EXPECT_EQ(log.count(Severity::kWarning), 0);
+  mix({0, 0, 0, 0, 0, 0.4F});
+  EXPECT_NEAR(mixer.outputs()[2], 0.7F, kRoundOff);
+}
+
+TEST_F(MixerTest, LeavesAGeneralPurposePinAlone) {
+  parameters.set(parameter("PRI_MIXER_OUT_3"), 3);
+  parameters.set(primary_element(2, 3), -1.0F);
+  choose(kCustomMixer);
+  rosflight::RosflightAuxCmd message;
+  message.aux_cmd_array[3] = 1.0F;
+  message.type_array[3] = 1;
+  mixer.take(message);
+  mix({0, 0, -0.5F});
+  EXPECT_EQ(mixer.outputs()[3], 0.0F) << "neither mixed nor auxiliary";
+}
+
+TEST_F(MixerTest, DropsYawByTheForceOnTheThrottleAxis) {
+  parameters.set(parameter("RC_F_AXIS"), 0);
+  choose(2);
+  mix({0, 0, -0.5F, 0, 0, 0.4F});
+  EXPECT_NEAR(mixer.outputs()[0], mixer.outputs()[1], kRoundOff) << "nothing along x";
+  mix({0.5F, 0, -0.5F, 0, 0, 0.4F});
+  EXPECT_GT(mixer.outputs()[0], mixer.outputs()[1] + 0.1F);
+}
+
 TEST_F(MixerTest, HoldsAuxiliaryPinsUntilTheyAreCommanded) {
   choose(2);
   rosflight::RosflightAuxCmd message;
@@ -310,6 +317,14 @@ TEST_F(MotorMixerTest, CommandsTheFrictionVoltageForZeroThrust) {
   mixer.configure(parameters);
   mix({0, 0, 20.0F});
   EXPECT_NEAR(mixer.outputs()[0], 0.042F * 1.5F / 25.0F, kRoundOff);
+}
+
+TEST_F(MotorMixerTest, LeavesServosOutOfTheMotorModel) {
+  parameters.set(parameter("PRI_MIXER_OUT_1"), 1);
+  parameters.set(primary_element(3, 1), 0.5F);
+  choose(kCustomMixer);
+  mix({0, 0, -30.0F, 0.4F});
+  EXPECT_NEAR(mixer.outputs()[1], 0.6F, kRoundOff);
 }
 
 TEST_F(MotorMixerTest, GivesZeroAndAnErrorEachStepWithoutVoltageOrConstant) {
