@@ -86,7 +86,7 @@ bool McapReader::take(McapOpcode opcode, std::span<const std::uint8_t> content, 
   switch (opcode) {
     case McapOpcode::kHeader:
       profile_ = cursor.text();
-      library_ = cursor.text();
+      writer_name_ = cursor.text();
       break;
     case McapOpcode::kSchema: {
       const auto id = cursor.get<std::uint16_t>();
