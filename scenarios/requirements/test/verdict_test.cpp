@@ -66,16 +66,6 @@ INSTANTIATE_TEST_SUITE_P(
         OutcomeCase{"Invalid", {Outcome::kFail}, {"the plant diverged"}, Outcome::kInvalid, 5}),
     [](const auto& tested) { return tested.param.name; });
 
-TEST(ExitCodeTest, OfSeveralRunsIsZeroOnlyWhenAllPass) {
-  Verdict pass, fail, invalid;
-  pass.outcome = Outcome::kPass;
-  fail.outcome = Outcome::kFail;
-  invalid.outcome = Outcome::kInvalid;
-  EXPECT_EQ(exit_code(std::vector<Verdict>{pass, pass}), 0);
-  EXPECT_EQ(exit_code(std::vector<Verdict>{pass, invalid}), 5);
-  EXPECT_EQ(exit_code(std::vector<Verdict>{invalid, fail}), 1);
-}
-
 TEST(VerdictJsonTest, HasItsKeysInTheAgreedOrder) {
   const std::string expected = R"({
   "scenario": "three_waypoints",
