@@ -10,8 +10,8 @@
 
 namespace ironbird::scenarios {
 
-/// One run in a process of its own, which tells over a pipe how it goes and how it ended. The process does not
-/// outlive its parent, however the parent ends.
+/// One run in a process of its own, which tells over a pipe how it goes and how it ended. The process does
+/// not outlive its parent, however the parent ends.
 class ChildRun {
  public:
   /// Starts it. @throws UserError when the machine refuses

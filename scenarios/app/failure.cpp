@@ -38,7 +38,8 @@ Failure failure_of_signal(int signal) {
       "ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + "), without a verdict; ";
   switch (signal) {
     case SIGKILL:
-      return {kExitInternal, what + "most often the machine has run out of memory: fly fewer runs at once, see --jobs"};
+      return {kExitInternal,
+              what + "most often the machine has run out of memory: fly fewer runs at once, see --jobs"};
     case SIGINT:
     case SIGTERM:
     case SIGHUP:

@@ -15,10 +15,10 @@ struct WorkDone {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("label", self.label, "-", "what is being worked on");
+    visit("label", self.label, "", "what is being worked on");
     visit("done", self.done, "1", "how much of it is done");
     visit("total", self.total, "1", "how much there is, in the same unit");
-    visit("detail", self.detail, "-", "more for whoever watches");
+    visit("detail", self.detail, "", "more for whoever watches");
   }
 };
 

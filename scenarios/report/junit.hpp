@@ -16,9 +16,9 @@ struct JunitRun {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("name", self.name, "-", "which run, unique among them");
-    visit("verdict", self.verdict, "-", "none when the flight could not be done");
-    visit("error", self.error, "-", "what could not be done; empty when nothing");
+    visit("name", self.name, "", "which run, unique among them");
+    visit("verdict", self.verdict, "", "none when the flight could not be done");
+    visit("error", self.error, "", "what could not be done; empty when nothing");
   }
 };
 

@@ -46,7 +46,8 @@ INSTANTIATE_TEST_SUITE_P(
     Words, WrongWordTest,
     ::testing::Values(WordCase{"Verb", "rnu x.toml", "rnu: there is no such verb; did you mean run?"},
                       WordCase{"VerbUnlikeAny", "wxyzwxyz", "run, check, report, video, snapshot, topics"},
-                      WordCase{"Option", "run x.toml --jbos 2", "--jbos: run does not take this; did you mean --jobs?"},
+                      WordCase{"Option", "run x.toml --jbos 2",
+                               "--jbos: run does not take this; did you mean --jobs?"},
                       WordCase{"OptionWithValue", "run x.toml --ot=y", "did you mean --out?"},
                       WordCase{"NoScenario", "run", "scenarios is required; see ironbird run --help"},
                       WordCase{"NoNumber", "run x.toml --jobs many", "--jobs"}),
@@ -66,8 +67,9 @@ class ExamplesTest : public ::testing::TestWithParam<const char*> {
   }
 
   Said run_in_tree(const std::string& command) const {
-    return run_shell("for d in models scenarios; do ln -sfn \"$PWD/$d\" " + folder_.text() + "/$d; done; cd " +
-                     folder_.text() + "; ironbird() { " + kProgram + " \"$@\"; }; " + command);
+    return run_shell("for d in models scenarios; do ln -sfn \"$PWD/$d\" " + folder_.text() +
+                     "/$d; done; cd " + folder_.text() + "; ironbird() { " + kProgram + " \"$@\"; }; " +
+                     command);
   }
 
   const TemporaryFolder folder_;
@@ -99,7 +101,8 @@ constexpr const char* kMission =
 class TerminalTest : public ::testing::Test {
  protected:
   const TemporaryFolder folder_;
-  const std::string fly_ = kProgram + " run " + folder_.write("short.toml", kMission) + " --no-log --out " + folder_.text();
+  const std::string fly_ =
+      kProgram + " run " + folder_.write("short.toml", kMission) + " --no-log --out " + folder_.text();
 };
 
 TEST_F(TerminalTest, APersonSeesABarAndColours) {

@@ -19,7 +19,7 @@ constexpr const char* kMission =
     "duration = \"2 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n[[check]]\nname = \"c\"\nhappens = "
     "\"autopilot.flight.fcu.armed == false\"\n";
 constexpr const char* kEndless = "duration = \"20 h\"\n[[waypoint]]\np_N = [0, 0, -5]\n";
-const std::string kFaulty = FAULTY_PROGRAM;
+const std::string kFaulty = "'" FAULTY_PROGRAM "'";
 
 std::string slurp(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -32,8 +32,8 @@ class ManyRunsTest : public ::testing::Test {
  protected:
   /// Flies `good` beside `other`, two at once.
   Said fly(const std::string& program, const std::string& other, const std::string& options = "") {
-    return run_shell(program + " run " + good_ + " " + other + " --jobs 2 --no-log --out " + out_ + " --junit " + junit_ +
-                     " --json " + options + " > " + json_);
+    return run_shell(program + " run " + good_ + " " + other + " --jobs 2 --no-log --out " + out_ +
+                     " --junit " + junit_ + " --json " + options + " > " + json_);
   }
 
   const TemporaryFolder folder_;
@@ -78,7 +78,8 @@ TEST_P(FaultyRunTest, IsToldEverywhereAndTheOtherRunIsNotHarmed) {
 INSTANTIATE_TEST_SUITE_P(
     Faults, FaultyRunTest,
     ::testing::Values(FaultCase{"throws", 4, "internal error: the sky is falling; please report it"},
-                      FaultCase{"killed", 4, "ended by signal 9 (Killed), without a verdict; most often the machine"},
+                      FaultCase{"killed", 4,
+                                "ended by signal 9 (Killed), without a verdict; most often the machine"},
                       FaultCase{"crashes", 4, "ended by signal 11 (Segmentation fault), without a verdict"},
                       FaultCase{"leaves", 4, "internal error: ended with exit code 0 before its verdict"}),
     [](const auto& tested) { return std::string(tested.param.kind); });
@@ -97,7 +98,8 @@ TEST_F(ManyRunsTest, AScenarioThatCannotBeLoadedDoesNotKeepTheOthersFromFlying) 
 }
 
 TEST_F(ManyRunsTest, AJunitFileThatCannotBeWrittenIsNoticedBeforeTheFlight) {
-  const Said said = run_shell(kProgram + " run " + good_ + " --out " + out_ + " --junit /nonexistent/junit.xml");
+  const Said said =
+      run_shell(kProgram + " run " + good_ + " --out " + out_ + " --junit /nonexistent/junit.xml");
   EXPECT_EQ(said.exit_code, 2);
   EXPECT_EQ(said.text, "/nonexistent/junit.xml: cannot be written: No such file or directory\n");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
@@ -114,18 +116,24 @@ TEST_F(ManyRunsTest, AnErrorOfAnOnlyRunIsToldInOneLineToo) {
   const std::string bad = folder_.write("bad.toml", with_estimator("throws"));
   const Said said = run_shell(kFaulty + " run " + bad + " --no-log --out " + out_);
   EXPECT_EQ(said.exit_code, 4);
-  EXPECT_EQ(said.text,
-            "bad: internal error: the sky is falling; please report it, with this line, the scenario, and what "
-            "`ironbird --version` says\n");
+  EXPECT_EQ(
+      said.text,
+      "bad: internal error: the sky is falling; please report it, with this line, the scenario, and what "
+      "`ironbird --version` says\n");
 }
 
-/// Starts two endless runs, sends `signal` to the parent alone once both are under way, and lists the processes
-/// that are left a moment later.
-std::string interrupt_parent(const std::string& program, const std::string& options, const std::string& signal) {
+/// Starts two endless runs, sends `signal` to the parent alone once both are under way, and lists the
+/// processes that are left a moment later.
+std::string interrupt_parent(const std::string& program, const std::string& options,
+                             const std::string& signal) {
   return "env --default-signal=INT " + program + " run " + options +
-         " & p=$!; for i in $(seq 200); do [ $(cat /proc/$p/task/$p/children | wc -w) -eq 2 ] && break; sleep 0.05; done; sleep 0.5;"
-         " children=$(cat /proc/$p/task/$p/children); kill -" + signal + " $p; wait $p; code=$?; sleep 0.2;"
-         " for c in $children; do grep -qs '^State:.[^ZX]' /proc/$c/status && echo \"left behind\"; done; exit $code";
+         " & p=$!; for i in $(seq 200); do [ $(cat /proc/$p/task/$p/children | wc -w) -eq 2 ] && break; "
+         "sleep 0.05; done; sleep 0.5;"
+         " children=$(cat /proc/$p/task/$p/children); kill -" +
+         signal +
+         " $p; wait $p; code=$?; sleep 0.2;"
+         " for c in $children; do grep -qs '^State:.[^ZX]' /proc/$c/status && echo \"left behind\"; done; "
+         "exit $code";
 }
 
 class ParentTest : public ManyRunsTest, public ::testing::WithParamInterface<const char*> {};
@@ -163,7 +171,8 @@ TEST_F(ManyRunsTest, ARunThatDoesNotEndWhenAskedIsEndedByForce) {
 
 TEST_F(ManyRunsTest, ShowOneLineOfProgressOnATerminal) {
   const Said said = run_on_terminal(
-      kProgram + " run " + good_ + " --seed 1:4 --jobs 2 --no-log --set 'duration=\"60 s\"' --out " + out_, 80);
+      kProgram + " run " + good_ + " --seed 1:4 --jobs 2 --no-log --set 'duration=\"60 s\"' --out " + out_,
+      80);
   EXPECT_THAT(said.text, HasSubstr("\r\033[Kruns "));
   EXPECT_THAT(said.text, HasSubstr("of 4 done"));
   EXPECT_THAT(said.text, HasSubstr("[4/4] good, seed "));

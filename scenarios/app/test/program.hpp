@@ -90,6 +90,6 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-inline const std::string kProgram = IRONBIRD_PROGRAM;
+inline const std::string kProgram = "'" IRONBIRD_PROGRAM "'";
 
 }  // namespace ironbird::scenarios

@@ -13,7 +13,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-RunResult flown(const std::string& scenario, std::uint64_t seed, double path_error, Outcome outcome = Outcome::kPass) {
+RunResult flown(const std::string& scenario, std::uint64_t seed, double path_error,
+                Outcome outcome = Outcome::kPass) {
   Verdict verdict;
   verdict.run.scenario = scenario;
   verdict.run.seed = seed;
@@ -43,8 +44,8 @@ TEST(RunSummaryTest, KeepsScenariosApart) {
 }
 
 TEST(RunSummaryTest, CountsRunsWithoutAVerdictButNotTheirFigures) {
-  const std::string text = summary_text(
-      {flown("calm", 1, 0.1), broken("calm", 2), flown("calm", 3, 99.0, Outcome::kInvalid)});
+  const std::string text =
+      summary_text({flown("calm", 1, 0.1), broken("calm", 2), flown("calm", 3, 99.0, Outcome::kInvalid)});
   EXPECT_THAT(text, HasSubstr("calm, seed 2: no verdict, exit code 4\n"));
   EXPECT_THAT(text, HasSubstr("\ncalm: 1 of 3 runs pass\n"));
   EXPECT_THAT(text, HasSubstr("path_rms_total_m                    0.1        0.1        0.1\n"));

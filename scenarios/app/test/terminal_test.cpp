@@ -14,13 +14,14 @@ const WorkDone kHalfway{"three_waypoints, seed 17", 60.0, 120.0, " 60.0 s flown,
 
 /// Characters, not bytes.
 std::size_t width_of(const std::string& line) {
-  return static_cast<std::size_t>(
-      std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(std::count_if(
+      line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 TEST(ProgressLineTest, SaysEverythingWhereThereIsRoom) {
   const std::string line = progress_line(kHalfway, 3.0, 0);
-  for (const char* word : {"three_waypoints, seed 17", "████████████░░░░", "50 %", "60.0 s flown", "3 s left"}) {
+  for (const char* word :
+       {"three_waypoints, seed 17", "████████████░░░░", "50 %", "60.0 s flown", "3 s left"}) {
     EXPECT_THAT(line, HasSubstr(word));
   }
 }
