@@ -76,12 +76,10 @@ RequestOutcome set_parameter(ParameterTable& table, const SetParameter& wish) {
 
 Autopilot::Autopilot(const AutopilotConfig& config, const Modules& modules)
     : modules_(modules), config_(config) {
-  estimator_ = required("estimator", config.estimator, modules.estimators, parameters_);
-  path_planner_ = required("path_planner", config.path_planner, modules.path_planners, parameters_);
-  path_manager_ = required("path_manager", config.path_manager, modules.path_managers, parameters_);
-  trajectory_follower_ =
-      required("trajectory_follower", config.trajectory_follower, modules.trajectory_followers, parameters_);
-  controller_ = required("controller", config.controller, modules.controllers, parameters_);
+  for_each_slot([&]<class Base>(const ModuleSlot<Base>& slot) {
+    std::get<std::unique_ptr<Base>&>(places()) =
+        required(slot.name, config.*slot.config, modules.*slot.kinds, parameters_);
+  });
   signals_.route.waypoints.reserve(kMostWaypoints);
 }
 
@@ -133,20 +131,16 @@ void Autopilot::note_flight() {
 
 RequestOutcome Autopilot::swap(const SwapModule& wish) {
   note_flight();
-  const auto into = [&](auto& place, AutopilotConfig::Slot& slot, const auto& registry) {
-    return exchange(place, slot, wish, registry, parameters_, signals_);
-  };
-  if (wish.slot == "estimator") return into(estimator_, config_.estimator, modules_.estimators);
-  if (wish.slot == "path_planner") return into(path_planner_, config_.path_planner, modules_.path_planners);
-  if (wish.slot == "path_manager") return into(path_manager_, config_.path_manager, modules_.path_managers);
-  if (wish.slot == "trajectory_follower") {
-    return into(trajectory_follower_, config_.trajectory_follower, modules_.trajectory_followers);
-  }
-  if (wish.slot == "controller") return into(controller_, config_.controller, modules_.controllers);
-  return {
-      false,
-      "slot \"" + wish.slot +
-          "\" is unknown; there are: controller, estimator, path_manager, path_planner, trajectory_follower"};
+  std::string names;
+  std::optional<RequestOutcome> outcome;
+  for_each_slot([&]<class Base>(const ModuleSlot<Base>& slot) {
+    names += (names.empty() ? "" : ", ") + std::string(slot.name);
+    if (wish.slot != slot.name) return;
+    outcome = exchange(std::get<std::unique_ptr<Base>&>(places()), config_.*slot.config, wish,
+                       modules_.*slot.kinds, parameters_, signals_);
+  });
+  return outcome.value_or(
+      RequestOutcome{false, "slot \"" + wish.slot + "\" is unknown; there are: " + names});
 }
 
 }  // namespace ironbird::autopilot

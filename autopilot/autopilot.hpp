@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "autopilot/modules.hpp"
@@ -58,6 +59,9 @@ class Autopilot {
  private:
   RequestOutcome swap(const SwapModule& wish);
   void note_flight();
+  auto places() {
+    return std::tie(estimator_, path_planner_, path_manager_, trajectory_follower_, controller_);
+  }
 
   Modules modules_;
   AutopilotConfig config_;
@@ -71,5 +75,36 @@ class Autopilot {
   std::uint32_t route_revision_ = 0;
   Signals signals_;
 };
+
+/// A place for an exchangeable module: its name, and where its configuration, the kinds for it, and the
+/// module that flies in it are found.
+template <class Base>
+struct ModuleSlot {
+  using Module = Base;
+
+  const char* name;
+  AutopilotConfig::Slot AutopilotConfig::*config;
+  Registry<Base> Modules::*kinds;
+  const Base& (Autopilot::*module)() const;
+};
+
+/// The slots, in the order in which their modules work.
+inline constexpr std::tuple kModuleSlots{
+    ModuleSlot<Estimator>{"estimator", &AutopilotConfig::estimator, &Modules::estimators,
+                          &Autopilot::estimator},
+    ModuleSlot<PathPlanner>{"path_planner", &AutopilotConfig::path_planner, &Modules::path_planners,
+                            &Autopilot::path_planner},
+    ModuleSlot<PathManager>{"path_manager", &AutopilotConfig::path_manager, &Modules::path_managers,
+                            &Autopilot::path_manager},
+    ModuleSlot<TrajectoryFollower>{"trajectory_follower", &AutopilotConfig::trajectory_follower,
+                                   &Modules::trajectory_followers, &Autopilot::trajectory_follower},
+    ModuleSlot<Controller>{"controller", &AutopilotConfig::controller, &Modules::controllers,
+                           &Autopilot::controller}};
+
+/// Calls `visit` with each ModuleSlot.
+template <class Visit>
+void for_each_slot(Visit&& visit) {
+  std::apply([&](const auto&... slot) { (visit(slot), ...); }, kModuleSlots);
+}
 
 }  // namespace ironbird::autopilot

@@ -21,7 +21,7 @@ struct ScalarUpdate {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("variance", self.variance, "", "S of the last row, in the squared unit of its measurement");
+    visit("variance", self.variance, "SI", "S of the last row, in the squared unit of its measurement");
   }
 
   /// Fuses one row.

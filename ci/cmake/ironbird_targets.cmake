@@ -4,9 +4,15 @@
 # optimisation level: no contraction into fused multiply-add, no fast-math, no -march=native.
 add_library(ironbird_options INTERFACE)
 target_compile_features(ironbird_options INTERFACE cxx_std_20)
+# What the compiler warns of is our business in our targets and everybody's own in a program outside this tree.
+define_property(TARGET PROPERTY IRONBIRD_OWN INITIALIZE_FROM_VARIABLE DEFAULT_IRONBIRD_OWN
+                BRIEF_DOCS "A target of this tree" FULL_DOCS "A target of this tree, built with its warnings")
+set(DEFAULT_IRONBIRD_OWN ON)
+set(own $<TARGET_PROPERTY:IRONBIRD_OWN>)
 target_compile_options(ironbird_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off
-  $<$<BOOL:${IRONBIRD_WARNINGS_AS_ERRORS}>:-Werror>)
+  $<$<BOOL:${own}>:-Wall> $<$<BOOL:${own}>:-Wextra> $<$<BOOL:${own}>:-Wpedantic> $<$<BOOL:${own}>:-Wshadow>
+  -ffp-contract=off
+  $<$<AND:$<BOOL:${own}>,$<BOOL:${IRONBIRD_WARNINGS_AS_ERRORS}>>:-Werror>)
 target_include_directories(ironbird_options INTERFACE ${PROJECT_SOURCE_DIR})
 # Eigen's vectorised sums would otherwise depend on the optimisation level's choice of alignment.
 target_compile_definitions(ironbird_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MPL2_ONLY)

@@ -45,7 +45,6 @@ void Lockstep::dispatch(const Arrival& arrival) {
   if (const auto* text = std::get_if<rosflight::Statustext>(&arrival.message)) texts_.push_back(*text);
   const autopilot::SensorFrame* frame = builder_.push(arrival);
   if (frame == nullptr) return;
-  ++frames_;
   stepped_ = true;
   if (const auto control = encode(pilot_.step(*frame))) fcu_.send(*control);
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "autopilot/autopilot.hpp"
@@ -26,9 +25,6 @@ class Lockstep {
   Time now() const { return now_; }
   const Telemetry& telemetry() const { return telemetry_; }
 
-  /// Frames that the autopilot was given so far.
-  std::uint64_t frames() const { return frames_; }
-
   /// The autopilot worked in the last tick.
   bool stepped() const { return stepped_; }
 
@@ -47,7 +43,6 @@ class Lockstep {
   Telemetry telemetry_;
   std::vector<Arrival> inbox_;
   std::vector<rosflight::Statustext> texts_;
-  std::uint64_t frames_ = 0;
   bool stepped_ = false;
 };
 

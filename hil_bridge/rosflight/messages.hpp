@@ -181,7 +181,7 @@ struct OffboardControl {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("u", self.u, "", "forces, torques or their setpoints, then free mixer inputs");
+    visit("u", self.u, "SI", "forces, torques or their setpoints, then free mixer inputs");
     visit("ignore", self.ignore, "1", "bit i: u[i] is not commanded");
     visit("mode", self.mode, "1", "0 pass-through, 1 rates, 2 angles");
   }
@@ -225,9 +225,9 @@ struct SmallMag {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("xmag", self.xmag, "", "field after calibration");
-    visit("ymag", self.ymag, "", "field after calibration");
-    visit("zmag", self.zmag, "", "field after calibration");
+    visit("xmag", self.xmag, "1", "field after calibration, in any scale");
+    visit("ymag", self.ymag, "1", "field after calibration, in any scale");
+    visit("zmag", self.zmag, "1", "field after calibration, in any scale");
   }
 };
 

@@ -51,7 +51,6 @@ void SensorFrameBuilder::take(const rosflight::SmallMag& message) {
   sample.stamp = imu_stamp_;
   sample.m_B = vector(message.xmag, message.ymag, message.zmag);
   if (!sample.m_B.allFinite()) {
-    ++refused_messages_;
     return;
   }
   gathering_.mag = sample;
@@ -63,7 +62,6 @@ void SensorFrameBuilder::take(const rosflight::SmallBaro& message) {
   sample.pressure = static_cast<double>(message.pressure);
   sample.temperature = static_cast<double>(message.temperature);
   if (!std::isfinite(sample.pressure)) {
-    ++refused_messages_;
     return;
   }
   gathering_.baro = sample;
@@ -84,7 +82,6 @@ void SensorFrameBuilder::take(const rosflight::RosflightGnss& message) {
   sample.satellites = message.num_sat;
   if (!std::isfinite(sample.latitude) || !std::isfinite(sample.longitude) ||
       !std::isfinite(sample.altitude) || !sample.v_NB_N.allFinite()) {
-    ++refused_messages_;
     return;
   }
   gathering_.gnss = sample;

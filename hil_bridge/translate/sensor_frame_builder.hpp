@@ -8,7 +8,8 @@
 namespace ironbird::hil_bridge {
 
 /// Gathers the FCU's messages into the autopilot's sensor frames: one frame for each IMU message, with the
-/// slower sensors that arrived since the frame before.
+/// slower sensors that arrived since the frame before. A slower sensor that says what is not finite says
+/// nothing.
 ///
 /// Stamps: the wire carries those of the IMU and of GNSS. Magnetometer and barometer have none and get the
 /// stamp of the latest IMU message: a real loss of information, which the simulated link shares. The status
@@ -17,9 +18,6 @@ class SensorFrameBuilder {
  public:
   /// Takes one message. @return a frame when the message was an IMU sample; valid until the next call
   const autopilot::SensorFrame* push(const Arrival& arrival);
-
-  /// How many messages were refused because a number in them was not finite.
-  int refused_messages() const { return refused_messages_; }
 
  private:
   void take(const rosflight::SmallMag& message);
@@ -31,7 +29,6 @@ class SensorFrameBuilder {
   autopilot::SensorFrame complete_;
   Time imu_stamp_{0};
   double battery_voltage_ = 0.0;
-  int refused_messages_ = 0;
 };
 
 }  // namespace ironbird::hil_bridge

@@ -24,9 +24,9 @@ struct Triple {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("x", self.x, "", "front");
-    visit("y", self.y, "", "right");
-    visit("z", self.z, "", "down");
+    visit("x", self.x, "SI", "front");
+    visit("y", self.y, "SI", "right");
+    visit("z", self.z, "SI", "down");
   }
 };
 

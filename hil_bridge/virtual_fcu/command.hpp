@@ -36,7 +36,7 @@ struct Channel {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("value", self.value, "", "force, torque, rad/s, rad or throttle, as `kind` says");
+    visit("value", self.value, "SI", "force, torque, rad/s, rad or throttle, as `kind` says");
     visit("kind", self.kind, "1", "how the value is meant");
     visit("active", self.active, "1", "somebody commands it");
   }

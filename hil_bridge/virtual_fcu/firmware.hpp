@@ -29,7 +29,7 @@ struct ParameterOverride {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("name", self.name, "", "name of the parameter");
-    visit("value", self.value, "", "value; whole for an integer parameter");
+    visit("value", self.value, "SI", "value; whole for an integer parameter");
   }
 };
 

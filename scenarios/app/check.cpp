@@ -1,11 +1,14 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "scenarios/app/command_line.hpp"
 #include "scenarios/app/exit_code.hpp"
+#include "scenarios/app/failure.hpp"
 #include "scenarios/bench/bench.hpp"
 
 namespace ironbird::scenarios {
@@ -23,9 +26,10 @@ int check(const std::vector<std::string>& files, const autopilot::Modules& modul
         throw loaded.located(error);
       }
       std::fprintf(stderr, "%s: no finding\n", file.c_str());
-    } catch (const ConfigError& error) {
-      std::fprintf(stderr, "%s\n", error.what());
-      code = kExitUsage;
+    } catch (const std::exception& error) {
+      const Failure failure = failure_of(error);
+      std::fprintf(stderr, "%s\n", failure.text.c_str());
+      code = std::max(code, failure.exit_code);
     }
   }
   return code;

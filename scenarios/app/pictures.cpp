@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -28,16 +27,18 @@ struct SnapshotArguments {
 int video(const VideoArguments& arguments) {
   note_interrupts();
   const Log log = Log::read(arguments.log);
-  const bool whole = make_video(log, find_project_root(arguments.log), arguments.out, arguments.preview,
-                                Terminal::of_standard_error());
-  if (whole) std::fprintf(stderr, "%s\n", arguments.out.c_str());
+  TerminalListener listener(Terminal::of_standard_error());
+  const bool whole =
+      make_video(log, find_project_root(arguments.log), arguments.out, arguments.preview, listener);
+  if (whole) listener.note(arguments.out);
   return whole ? kExitPass : kExitInterrupted;
 }
 
 int snapshot(const SnapshotArguments& arguments) {
   const Log log = Log::read(arguments.log);
-  for (const auto& file : make_snapshots(log, find_project_root(arguments.log), arguments.out)) {
-    std::fprintf(stderr, "%s\n", file.c_str());
+  TerminalListener listener(Terminal::of_standard_error());
+  for (const auto& file : make_snapshots(log, find_project_root(arguments.log), arguments.out, listener)) {
+    listener.note(file.string());
   }
   return kExitPass;
 }

@@ -1,6 +1,5 @@
 #include "scenarios/app/products.hpp"
 
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -72,24 +71,24 @@ FilmScript plan_film(const Log& log, const PicturePlan& plan, const std::filesys
 }
 
 bool make_video(const Log& log, const std::filesystem::path& project_root, const std::filesystem::path& file,
-                bool preview, const Terminal& terminal) {
+                bool preview, RunListener& listener) {
   const FilmScript script = plan_film(log, picture_plan(log), project_root, preview);
-  ProgressBar bar(terminal, "film");
-  if (!terminal.interactive) std::fprintf(stderr, "film: drawing %zu pictures\n", script.frames.size());
   return film_to_file(script, file, 0, [&](std::size_t done, std::size_t all) {
-    bar.show(static_cast<double>(done), static_cast<double>(all), std::to_string(done) + " pictures");
+    listener.progress(
+        {"film", static_cast<double>(done), static_cast<double>(all), std::to_string(done) + " pictures"});
     return !interrupt_requested();
   });
 }
 
 std::vector<std::filesystem::path> make_snapshots(const Log& log, const std::filesystem::path& project_root,
-                                                  const std::filesystem::path& folder) {
+                                                  const std::filesystem::path& folder,
+                                                  RunListener& listener) {
   const PicturePlan plan = picture_plan(log);
   std::vector<std::filesystem::path> files;
   for (const SnapshotConfig& snapshot : plan.snapshots) {
     const double time = time_of_snapshot(log, snapshot.name);
     if (!(time == time)) {
-      std::fprintf(stderr, "snapshot %s: its moment never came\n", snapshot.name.c_str());
+      listener.note("snapshot " + snapshot.name + ": its moment never came");
       continue;
     }
     FilmOptions options = film_options(plan, project_root);
@@ -103,19 +102,21 @@ std::vector<std::filesystem::path> make_snapshots(const Log& log, const std::fil
   return files;
 }
 
-bool make_products(const RunJob& job, const Terminal& terminal) {
+bool make_products(const RunJob& job, RunListener& listener) {
   if (!job.products.log) return true;
-  const std::filesystem::path log_file = job.folder / "flight.mcap";
+  const std::filesystem::path log_file = job.name.folder / "flight.mcap";
   if (job.products.report) {
     std::vector<ReportRun> runs;
-    runs.push_back(ReportRun::read(job.loaded->name, log_file, job.folder / "verdict.json"));
-    write_report(runs, job.folder / "report.html");
+    runs.push_back(ReportRun::read(job.name.text(), log_file, job.name.folder / "verdict.json"));
+    write_report(runs, job.name.folder / "report.html");
   }
   if (!job.products.video && !job.products.snapshots) return true;
   const Log log = Log::read(log_file);
-  if (job.products.snapshots) make_snapshots(log, job.loaded->project_root, job.folder / "snapshots");
+  if (job.products.snapshots)
+    make_snapshots(log, job.loaded->project_root, job.name.folder / "snapshots", listener);
   if (!job.products.video) return true;
-  return make_video(log, job.loaded->project_root, job.folder / "video.mp4", job.products.preview, terminal);
+  return make_video(log, job.loaded->project_root, job.name.folder / "video.mp4", job.products.preview,
+                    listener);
 }
 
 }  // namespace ironbird::scenarios

@@ -31,17 +31,17 @@ PicturePlan picture_plan(const Log& log);
 FilmScript plan_film(const Log& log, const PicturePlan& plan, const std::filesystem::path& project_root,
                      bool preview);
 
-/// Draws the film with progress. @return false when it was interrupted
+/// Draws the film. @return false when it was interrupted
 bool make_video(const Log& log, const std::filesystem::path& project_root, const std::filesystem::path& file,
-                bool preview, const Terminal& terminal);
+                bool preview, RunListener& listener);
 
 /// Takes the pictures that the scenario names. @return the files written
 std::vector<std::filesystem::path> make_snapshots(const Log& log, const std::filesystem::path& project_root,
-                                                  const std::filesystem::path& folder);
+                                                  const std::filesystem::path& folder, RunListener& listener);
 
 /// Makes what the job asks for from the log of a finished run: report, snapshots, film.
 /// @return false when the user interrupted it
-/// @throws std::runtime_error naming the file that could not be made
-bool make_products(const RunJob& job, const Terminal& terminal);
+/// @throws UserError naming the file that could not be made
+bool make_products(const RunJob& job, RunListener& listener);
 
 }  // namespace ironbird::scenarios

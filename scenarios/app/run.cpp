@@ -8,6 +8,7 @@
 
 #include "scenarios/app/command_line.hpp"
 #include "scenarios/app/exit_code.hpp"
+#include "scenarios/app/failure.hpp"
 #include "scenarios/app/run_job.hpp"
 #include "scenarios/app/run_jobs.hpp"
 #include "scenarios/app/run_summary.hpp"
@@ -67,48 +68,94 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
   }
 }
 
-std::vector<RunJob> make_jobs(const RunArguments& arguments, const autopilot::Modules& modules) {
-  const std::vector<std::uint64_t> seeds = parse_seeds(arguments.seeds);
+/// What the command line asks for: runs that can be done, and scenarios that cannot be flown at all.
+struct Plan {
   std::vector<RunJob> jobs;
-  for (const std::string& file : arguments.files) {
-    Overrides overrides{split_settings(arguments.settings), std::nullopt};
-    const std::size_t count = std::max<std::size_t>(1, seeds.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!seeds.empty()) overrides.seed = seeds[i];
-      auto loaded = std::make_shared<const LoadedScenario>(load_scenario(file, overrides, modules));
-      std::filesystem::path folder = std::filesystem::path(arguments.out) / loaded->name;
-      if (seeds.size() > 1) folder /= "seed_" + std::to_string(seeds[i]);
-      jobs.push_back({std::move(loaded), std::move(folder), arguments.products});
+  std::vector<RunResult> refused;
+};
+
+/// The runs of one scenario. @throws std::exception when it cannot be loaded
+std::vector<RunJob> jobs_of(const std::string& file, const std::vector<std::uint64_t>& seeds,
+                            const RunArguments& arguments, const autopilot::Modules& modules) {
+  Overrides overrides{split_settings(arguments.settings), std::nullopt};
+  std::vector<RunJob> jobs;
+  const std::size_t count = std::max<std::size_t>(1, seeds.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!seeds.empty()) overrides.seed = seeds[i];
+    auto loaded = std::make_shared<const LoadedScenario>(load_scenario(file, overrides, modules));
+    RunName name{loaded->name, std::nullopt, std::filesystem::path(arguments.out) / loaded->name};
+    if (seeds.size() > 1) {
+      name.seed = seeds[i];
+      name.folder /= "seed_" + std::to_string(seeds[i]);
     }
+    jobs.push_back({std::move(name), std::move(loaded), arguments.products});
   }
   return jobs;
+}
+
+/// A scenario that cannot be loaded does not keep the others from flying.
+Plan make_plan(const RunArguments& arguments, const autopilot::Modules& modules) {
+  const std::vector<std::uint64_t> seeds = parse_seeds(arguments.seeds);
+  split_settings(arguments.settings);  // what is wrong with these is wrong once, not with every scenario
+  Plan plan;
+  for (const std::string& file : arguments.files) {
+    try {
+      for (RunJob& job : jobs_of(file, seeds, arguments, modules)) plan.jobs.push_back(std::move(job));
+    } catch (const std::exception& error) {
+      const Failure failure = failure_of(error);
+      const std::string name = std::filesystem::path(file).stem().string();
+      plan.refused.push_back({{name, std::nullopt, std::filesystem::path(arguments.out) / name},
+                              std::nullopt,
+                              failure.exit_code,
+                              failure.text});
+    }
+  }
+  return plan;
 }
 
 /// Two scenarios of the same file name would write over each other.
 void check_folders(const std::vector<RunJob>& jobs) {
   std::set<std::filesystem::path> folders;
   for (const RunJob& job : jobs) {
-    if (!folders.insert(job.folder.lexically_normal()).second) {
-      throw ConfigError(job.folder.string() +
+    if (!folders.insert(job.name.folder.lexically_normal()).second) {
+      throw ConfigError(job.name.folder.string() +
                         ": two of the scenarios would write here; fly them apart, with another --out");
     }
   }
 }
 
-int run(RunArguments arguments, const autopilot::Modules& modules) {
-  arguments.products.log = !arguments.no_log;
-  arguments.products.report = !arguments.no_report && !arguments.no_log;
-  if (arguments.no_log && (arguments.products.video || arguments.products.snapshots)) {
+void check_arguments(const RunArguments& arguments) {
+  if (!arguments.products.log && (arguments.products.video || arguments.products.snapshots)) {
     throw ConfigError("--no-log: film and snapshots are made from the log; leave one of the options away");
   }
   if (arguments.out.empty()) throw ConfigError("--out: must name a folder");
-  const std::vector<RunJob> jobs = make_jobs(arguments, modules);
-  check_folders(jobs);
-  const Terminal terminal = Terminal::of_standard_error();
-  const std::vector<RunResult> results = run_jobs(jobs, modules, arguments.jobs, terminal);
+}
+
+/// Writes the file before the flights: now is the time to learn that it cannot be written, and if the program
+/// should be ended by force, it says so.
+void write_first_junit_file(const Plan& plan, const std::filesystem::path& file) {
+  std::vector<RunResult> results = plan.refused;
+  for (const RunJob& job : plan.jobs) {
+    results.push_back({job.name, std::nullopt, kExitInterrupted, "the program ended before this run did"});
+  }
+  write_junit_file(results, file);
+}
+
+int run(RunArguments arguments, const autopilot::Modules& modules) {
+  arguments.products.log = !arguments.no_log;
+  arguments.products.report = !arguments.no_report && !arguments.no_log;
+  check_arguments(arguments);
+  Plan plan = make_plan(arguments, modules);
+  check_folders(plan.jobs);
+  if (!arguments.junit.empty()) write_first_junit_file(plan, arguments.junit);
+  for (const RunResult& result : plan.refused) tell_error(result);
+  std::vector<RunResult> results = std::move(plan.refused);
+  for (RunResult& result : run_jobs(plan.jobs, modules, arguments.jobs, Terminal::of_standard_error())) {
+    results.push_back(std::move(result));
+  }
   if (!arguments.junit.empty()) write_junit_file(results, arguments.junit);
   if (arguments.json) std::fputs(summary_json(results).c_str(), stdout);
-  if (results.size() > 1) std::fputs(summary_text(results, terminal).c_str(), stderr);
+  if (results.size() > 1) std::fputs(summary_text(results).c_str(), stderr);
   return exit_code_of(results);
 }
 

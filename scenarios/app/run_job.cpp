@@ -1,15 +1,16 @@
 #include "scenarios/app/run_job.hpp"
 
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <system_error>
 
 #include "scenarios/app/exit_code.hpp"
+#include "scenarios/app/failure.hpp"
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/products.hpp"
 #include "scenarios/bench/bench.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
-#include "scenarios/requirements/verdict_text.hpp"
 #include "simulator/render/solid_layer.hpp"
 
 namespace ironbird::scenarios {
@@ -24,30 +25,22 @@ void make_folder(const std::filesystem::path& folder) {
                       "; choose another with --out");
 }
 
-Verdict fly(const RunJob& job, const autopilot::Modules& modules, const Terminal& terminal,
-            bool& interrupted) {
-  ProgressBar bar(terminal, job.loaded->name);
+Verdict fly(const RunJob& job, const autopilot::Modules& modules, RunListener& listener, bool& interrupted) {
   const auto start = std::chrono::steady_clock::now();
   BenchOptions options;
-  if (job.products.log) options.log_file = job.folder / "flight.mcap";
+  if (job.products.log) options.log_file = job.name.folder / "flight.mcap";
   options.on_progress = [&](const Progress& progress) {
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     char text[64];
     std::snprintf(text, sizeof text, "%5.1f s flown, %4.0f x real time", progress.simulated,
                   elapsed > 0.0 ? progress.simulated / elapsed : 0.0);
-    bar.show(progress.simulated, progress.duration, text);
+    listener.progress({job.name.text(), progress.simulated, progress.duration, text});
     return !interrupt_requested();
   };
   Bench bench(*job.loaded, modules, std::move(options));
   Verdict verdict = bench.fly();
   interrupted = bench.interrupted();
   return verdict;
-}
-
-void tell(const Verdict& verdict, const Terminal& terminal) {
-  const std::string text =
-      terminal.interactive ? verdict_table(verdict, terminal.colour) : verdict_lines(verdict);
-  std::fputs(text.c_str(), stderr);
 }
 
 /// Finds out before the flight, not after it, that it cannot be drawn.
@@ -66,33 +59,48 @@ void remove_old_products(const std::filesystem::path& folder) {
   }
 }
 
-RunResult carry_out(const RunJob& job, const autopilot::Modules& modules, const Terminal& terminal) {
+/// Does the run and fills `result` as far as it comes.
+void carry_out(const RunJob& job, const autopilot::Modules& modules, RunListener& listener,
+               RunResult& result) {
+  const std::filesystem::path& folder = job.name.folder;
   if (job.products.video || job.products.snapshots) check_scene(job);
-  make_folder(job.folder);
-  remove_old_products(job.folder);
+  make_folder(folder);
+  remove_old_products(folder);
   bool interrupted = false;
-  RunResult result{job.folder, fly(job, modules, terminal, interrupted), 0, {}};
-  write_verdict(*result.verdict, job.folder / "verdict.json");
-  tell(*result.verdict, terminal);
+  result.verdict = fly(job, modules, listener, interrupted);
+  write_verdict(*result.verdict, folder / "verdict.json");
+  listener.judged(*result.verdict);
   result.exit_code = interrupted ? static_cast<int>(kExitInterrupted) : exit_code(result.verdict->outcome);
-  if (!interrupted && !make_products(job, terminal)) result.exit_code = kExitInterrupted;
-  return result;
+  if (interrupted || make_products(job, listener)) return;
+  result.exit_code = kExitInterrupted;
+  result.error = "the run was flown, but interrupted before its film was ready";
+}
+
+void note_failure(const std::exception& error, RunResult& result) {
+  const Failure failure = failure_of(error);
+  result.exit_code = failure.exit_code;
+  result.error = failure.text;
 }
 
 }  // namespace
 
-RunResult run_job(const RunJob& job, const autopilot::Modules& modules, const Terminal& terminal) {
+std::string RunName::text() const {
+  return seed ? scenario + ", seed " + std::to_string(*seed) : scenario;
+}
+
+RunResult run_job(const RunJob& job, const autopilot::Modules& modules, RunListener& listener) {
+  RunResult result{job.name, std::nullopt, kExitInternal, {}};
   try {
-    return carry_out(job, modules, terminal);
+    carry_out(job, modules, listener, result);
   } catch (const std::invalid_argument& error) {
-    std::error_code not_empty;
-    std::filesystem::remove(job.folder, not_empty);  // a folder without a result helps nobody
-    return {job.folder, std::nullopt, kExitUsage, job.loaded->located(error).what()};
-  } catch (const std::runtime_error& error) {
-    return {job.folder, std::nullopt, kExitUsage, error.what()};
+    note_failure(job.loaded->located(error), result);
   } catch (const std::exception& error) {
-    return {job.folder, std::nullopt, kExitInternal, error.what()};
+    note_failure(error, result);
   }
+  std::error_code not_empty;
+  if (!result.verdict)
+    std::filesystem::remove(job.name.folder, not_empty);  // without a result it helps nobody
+  return result;
 }
 
 }  // namespace ironbird::scenarios

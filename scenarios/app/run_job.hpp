@@ -1,12 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "autopilot/modules.hpp"
-#include "scenarios/app/terminal.hpp"
+#include "scenarios/app/run_listener.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/requirements/verdict.hpp"
 
@@ -21,23 +22,32 @@ struct RunProducts {
   bool snapshots = false;
 };
 
+/// Which run it is.
+struct RunName {
+  std::string scenario;               ///< file name without its ending
+  std::optional<std::uint64_t> seed;  ///< when the scenario is flown with several
+  std::filesystem::path folder;       ///< where its results are
+
+  /// "three_waypoints", or "three_waypoints, seed 7"
+  std::string text() const;
+};
+
 /// One run to do.
 struct RunJob {
+  RunName name;
   std::shared_ptr<const LoadedScenario> loaded;
-  std::filesystem::path folder;
   RunProducts products;
 };
 
 /// What became of it.
 struct RunResult {
-  std::filesystem::path folder;
-  std::optional<Verdict> verdict;  ///< none when the run could not be done
+  RunName name;
+  std::optional<Verdict> verdict;  ///< none when the flight could not be done, or not to its end
   int exit_code = 0;
-  std::string error;  ///< why not, one line
+  std::string error;  ///< what could not be done and why, a line for each finding; may stand beside a verdict
 };
 
-/// Flies one scenario in this process, writes its folder and tells the terminal. Errors become part of the
-/// result.
-RunResult run_job(const RunJob& job, const autopilot::Modules& modules, const Terminal& terminal);
+/// Flies one scenario in this process and writes its folder. Errors become part of the result.
+RunResult run_job(const RunJob& job, const autopilot::Modules& modules, RunListener& listener);
 
 }  // namespace ironbird::scenarios

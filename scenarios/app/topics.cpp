@@ -48,11 +48,7 @@ void print_parameters(const char* slot, const autopilot::Registry<Base>& registr
 int topics(const autopilot::Modules& modules) {
   print_signals();
   std::puts("\nParameters of the autopilot: slot.kind.name, unit, default, bounds, meaning");
-  print_parameters("estimator", modules.estimators);
-  print_parameters("path_planner", modules.path_planners);
-  print_parameters("path_manager", modules.path_managers);
-  print_parameters("trajectory_follower", modules.trajectory_followers);
-  print_parameters("controller", modules.controllers);
+  autopilot::for_each_slot([&](const auto& slot) { print_parameters(slot.name, modules.*slot.kinds); });
   return kExitPass;
 }
 

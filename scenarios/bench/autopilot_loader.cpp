@@ -1,7 +1,6 @@
 #include "scenarios/bench/autopilot_loader.hpp"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 
 #include "scenarios/config/nearest_name.hpp"
@@ -28,8 +27,11 @@ struct SlotAccess {
 };
 
 template <class Base>
-SlotAccess access(const char* name, AutopilotConfig::Slot& slot, const autopilot::Registry<Base>& registry) {
-  return {name, &slot, [&registry] { return registry.names(); },
+SlotAccess access(const autopilot::ModuleSlot<Base>& slot, AutopilotConfig& config,
+                  const autopilot::Modules& modules) {
+  const autopilot::Registry<Base>& registry = modules.*slot.kinds;
+  const char* name = slot.name;
+  return {name, &(config.*slot.config), [&registry] { return registry.names(); },
           [&registry, name](const std::string& kind, ParameterTable& table) -> std::shared_ptr<void> {
             std::shared_ptr<Base> module = registry.make(kind);
             if (module != nullptr) module->register_parameters(table, name);
@@ -37,12 +39,10 @@ SlotAccess access(const char* name, AutopilotConfig::Slot& slot, const autopilot
           }};
 }
 
-std::array<SlotAccess, 5> all_slots(AutopilotConfig& config, const autopilot::Modules& modules) {
-  return {access("estimator", config.estimator, modules.estimators),
-          access("path_planner", config.path_planner, modules.path_planners),
-          access("path_manager", config.path_manager, modules.path_managers),
-          access("trajectory_follower", config.trajectory_follower, modules.trajectory_followers),
-          access("controller", config.controller, modules.controllers)};
+std::vector<SlotAccess> all_slots(AutopilotConfig& config, const autopilot::Modules& modules) {
+  std::vector<SlotAccess> slots;
+  autopilot::for_each_slot([&](const auto& slot) { slots.push_back(access(slot, config, modules)); });
+  return slots;
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -81,7 +81,7 @@ class AutopilotReader {
   }
 
   /// Tables that no slot and no kind has read.
-  void report_unknown(const std::array<SlotAccess, 5>& slots) {
+  void report_unknown(const std::vector<SlotAccess>& slots) {
     const toml::table* all = root_["autopilot"].as_table();
     if (all == nullptr) return;
     std::vector<std::string> names = {"kinds"};
@@ -225,7 +225,7 @@ void refuse_poses_from_outside(const autopilot::Modules& modules, const LoadedSc
 }  // namespace
 
 void load_autopilot(const toml::table& root, const autopilot::Modules& modules, LoadedScenario& loaded) {
-  std::array<SlotAccess, 5> slots = all_slots(loaded.autopilot, modules);
+  std::vector<SlotAccess> slots = all_slots(loaded.autopilot, modules);
   AutopilotReader reader(root, loaded);
   for (SlotAccess& slot : slots) reader.read(slot);
   reader.report_unknown(slots);

@@ -75,22 +75,18 @@ Bench::~Bench() = default;
 
 void Bench::wire_autopilot(const autopilot::Modules& modules) {
   autopilot_ = std::make_unique<autopilot::Autopilot>(loaded_.autopilot, modules);
-  const autopilot::AutopilotConfig& config = loaded_.autopilot;
-  const std::pair<const char*, const autopilot::AutopilotConfig::Slot*> slots[] = {
-      {"estimator", &config.estimator},
-      {"path_planner", &config.path_planner},
-      {"path_manager", &config.path_manager},
-      {"trajectory_follower", &config.trajectory_follower},
-      {"controller", &config.controller}};
-  for (const auto& [name, slot] : slots) {
-    const ModuleSettings* settings = loaded_.settings_of(name, slot->kind);
-    if (settings == nullptr) continue;
-    for (const auto& [path, value] : settings->values) autopilot_->parameters().set(path, value);
-  }
+  autopilot::for_each_slot(
+      [&](const auto& slot) { set_parameters(slot.name, (loaded_.autopilot.*slot.config).kind); });
   if (!scenario_.waypoints.empty()) {
     ask(autopilot::RouteRequest(autopilot::SetRoute{scenario_.waypoints, scenario_.cyclic}), "route",
         Time{0});
   }
+}
+
+void Bench::set_parameters(const std::string& slot, const std::string& kind) {
+  const ModuleSettings* settings = loaded_.settings_of(slot, kind);
+  if (settings == nullptr) return;
+  for (const auto& [path, value] : settings->values) autopilot_->parameters().set(path, value);
 }
 
 void Bench::wire_record() {
@@ -130,12 +126,9 @@ void Bench::wire_record() {
 
 void Bench::wire_probes() {
   probes_ = std::make_unique<ProbeRecorder>(*recorder_, from_seconds(scenario_.record.signal_period));
-  const autopilot::AutopilotConfig& kinds = loaded_.autopilot;
-  probes_->watch("estimator", kinds.estimator.kind, autopilot_->estimator());
-  probes_->watch("path_planner", kinds.path_planner.kind, autopilot_->path_planner());
-  probes_->watch("path_manager", kinds.path_manager.kind, autopilot_->path_manager());
-  probes_->watch("trajectory_follower", kinds.trajectory_follower.kind, autopilot_->trajectory_follower());
-  probes_->watch("controller", kinds.controller.kind, autopilot_->controller());
+  autopilot::for_each_slot([&](const auto& slot) {
+    probes_->watch(slot.name, (loaded_.autopilot.*slot.config).kind, (*autopilot_.*slot.module)());
+  });
 }
 
 void Bench::wire_script() {

@@ -131,20 +131,13 @@ void Bench::perform(OperatorWish wish, const EventConfig& event, Time now) {
   ask(request_of(wish, event), describe_event(event), now);
 }
 
-const autopilot::Module& Bench::module_in(const std::string& slot) const {
-  if (slot == "estimator") return autopilot_->estimator();
-  if (slot == "path_planner") return autopilot_->path_planner();
-  if (slot == "path_manager") return autopilot_->path_manager();
-  if (slot == "trajectory_follower") return autopilot_->trajectory_follower();
-  return autopilot_->controller();
-}
-
 void Bench::swap_module(const EventConfig& event, Time now) {
   if (!ask(autopilot::SwapModule{event.swap, event.kind}, describe_event(event), now)) return;
-  if (probes_) probes_->watch(event.swap, event.kind, module_in(event.swap));
-  const ModuleSettings* settings = loaded_.settings_of(event.swap, event.kind);
-  if (settings == nullptr) return;
-  for (const auto& [path, value] : settings->values) autopilot_->parameters().set(path, value);
+  autopilot::for_each_slot([&](const auto& slot) {
+    if (probes_ && event.swap == slot.name)
+      probes_->watch(event.swap, event.kind, (*autopilot_.*slot.module)());
+  });
+  set_parameters(event.swap, event.kind);
 }
 
 bool Bench::ask(const autopilot::Request& request, const std::string& what, Time now) {

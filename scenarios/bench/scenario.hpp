@@ -171,9 +171,9 @@ struct EventConfig {
     visit("fault", self.fault, "1", "a fault begins");
     visit("lasts", self.lasts, "s", "how long the fault lasts; 0: to the end", 0.0, 86400.0);
     visit("index", self.index, "1", "of the rotor or waypoint that is meant", 0.0, 1000.0);
-    visit("magnitude", self.magnitude, "",
+    visit("magnitude", self.magnitude, "SI",
           "of the fault, in its unit; of a hold, s; of the throttle stick, 0..1");
-    visit("vector", self.vector, "", "of the fault, in its unit");
+    visit("vector", self.vector, "SI", "of the fault, in its unit");
     visit("pilot", self.pilot, "1", "the pilot's hands");
     visit("request", self.request, "1", "a request of the operator");
     visit("add_waypoint", self.add_waypoint, "",
@@ -184,7 +184,7 @@ struct EventConfig {
     visit("swap", self.swap, "", "the module in this slot is replaced by one of `kind`");
     visit("kind", self.kind, "", "kind of the new module");
     visit("set", self.set, "", "path of a parameter of the autopilot that is set to `value`");
-    visit("value", self.value, "", "its new value, in the parameter's unit");
+    visit("value", self.value, "SI", "its new value, in the parameter's unit");
   }
 };
 

@@ -1,18 +1,19 @@
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "scenarios/config/user_error.hpp"
 
 namespace ironbird::scenarios {
 
 /// What is wrong with a configuration, one line for each finding:
 /// `file:line:column: path = value: what is wrong, what is allowed`.
-class ConfigError : public std::runtime_error {
+class ConfigError : public UserError {
  public:
   explicit ConfigError(std::vector<std::string> findings)
-      : std::runtime_error(joined(findings)), findings_(std::move(findings)) {}
+      : UserError(joined(findings)), findings_(std::move(findings)) {}
   explicit ConfigError(const std::string& finding) : ConfigError(std::vector<std::string>{finding}) {}
 
   const std::vector<std::string>& findings() const { return findings_; }

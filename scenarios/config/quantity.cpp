@@ -220,6 +220,7 @@ Unit parse_unit(std::string_view text) {
 }
 
 double parse_quantity(std::string_view text, std::string_view needed) {
+  if (needed == "SI") needed = {};  // any unit will do
   text = trimmed(text);
   double value = 0.0;
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';

@@ -31,7 +31,7 @@ std::string shown(const toml::node& node) {
 }
 
 std::string with_unit(const std::string& text, std::string_view unit) {
-  return unit.empty() || unit == "1" ? text : text + " " + std::string(unit);
+  return unit.empty() || unit == "1" || unit == "SI" ? text : text + " " + std::string(unit);
 }
 
 /// What is wrong with a number, or nothing.

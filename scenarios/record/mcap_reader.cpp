@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "scenarios/config/user_error.hpp"
 #include "scenarios/record/byte_cursor.hpp"
 #include "scenarios/record/crc32.hpp"
 
@@ -40,24 +41,23 @@ McapMessage read_message(ByteCursor& cursor) {
 McapReader::McapReader(const std::filesystem::path& file) : path_(file) {
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
   if (!stream || !std::filesystem::is_regular_file(file)) {
-    throw std::runtime_error(file.string() + ": cannot be opened");
+    throw UserError(file.string() + ": cannot be opened");
   }
   bytes_.resize(static_cast<std::size_t>(stream.tellg()));
   stream.seekg(0);
   stream.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size()));
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
+  if (!stream) throw UserError(file.string() + ": cannot be read");
 
   const std::size_t magic = std::min(bytes_.size(), kMcapMagic.size());
   if (!std::equal(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(magic), kMcapMagic.begin())) {
-    throw std::runtime_error(file.string() + ": is not a log: it does not begin like an MCAP file");
+    throw UserError(file.string() + ": is not a log: it does not begin like an MCAP file");
   }
   record_ = bytes_.data();
   scan(std::span<const std::uint8_t>(bytes_).subspan(magic), false);
 }
 
 void McapReader::fail(const std::string& what) const {
-  throw std::runtime_error(path_.string() + ": byte " + std::to_string(record_ - bytes_.data()) + ": " +
-                           what);
+  throw UserError(path_.string() + ": byte " + std::to_string(record_ - bytes_.data()) + ": " + what);
 }
 
 void McapReader::scan(std::span<const std::uint8_t> records, bool inside_chunk) {
@@ -86,7 +86,7 @@ bool McapReader::take(McapOpcode opcode, std::span<const std::uint8_t> content, 
   switch (opcode) {
     case McapOpcode::kHeader:
       profile_ = cursor.text();
-      library_ = cursor.text();
+      writer_name_ = cursor.text();
       break;
     case McapOpcode::kSchema: {
       const auto id = cursor.get<std::uint16_t>();

@@ -49,7 +49,8 @@ class McapReader {
   McapReader& operator=(const McapReader&) = delete;
 
   const std::string& profile() const { return profile_; }
-  const std::string& library() const { return library_; }
+  /// The program that wrote the file; the header calls it its library.
+  const std::string& writer_name() const { return writer_name_; }
   const std::map<std::uint16_t, McapSchema>& schemas() const { return schemas_; }
   const std::map<std::uint16_t, McapChannel>& channels() const { return channels_; }
   /// In the order of the file.
@@ -71,7 +72,7 @@ class McapReader {
   std::deque<std::vector<std::uint8_t>> unpacked_;
   const std::uint8_t* record_ = nullptr;
   std::string profile_;
-  std::string library_;
+  std::string writer_name_;
   std::map<std::uint16_t, McapSchema> schemas_;
   std::map<std::uint16_t, McapChannel> channels_;
   std::vector<McapMessage> messages_;

@@ -16,10 +16,10 @@ void put_map(ByteBuffer& out, const McapMetadata& values) {
   out.put_at(begin, static_cast<std::uint32_t>(out.size() - begin - 4));
 }
 
-void put_header(ByteBuffer& out, std::string_view profile, std::string_view library) {
+void put_header(ByteBuffer& out, std::string_view profile, std::string_view writer_name) {
   const McapRecord record(out, McapOpcode::kHeader);
   out.put_text(profile);
-  out.put_text(library);
+  out.put_text(writer_name);
 }
 
 void put_schema(ByteBuffer& out, std::uint16_t id, std::string_view name, std::string_view encoding,

@@ -32,7 +32,7 @@ class McapRecord {
 void put_magic(ByteBuffer& out);
 /// A map of texts behind its length in bytes.
 void put_map(ByteBuffer& out, const McapMetadata& values);
-void put_header(ByteBuffer& out, std::string_view profile, std::string_view library);
+void put_header(ByteBuffer& out, std::string_view profile, std::string_view writer_name);
 void put_schema(ByteBuffer& out, std::uint16_t id, std::string_view name, std::string_view encoding,
                 std::string_view text);
 void put_channel(ByteBuffer& out, std::uint16_t id, std::uint16_t schema, std::string_view topic,

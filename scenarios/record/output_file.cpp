@@ -8,14 +8,15 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <stdexcept>
 #include <string>
+
+#include "scenarios/config/user_error.hpp"
 
 namespace ironbird::scenarios {
 namespace {
 
-std::runtime_error failure(const std::filesystem::path& path, const char* what, int reason) {
-  return std::runtime_error(path.string() + ": " + what + ": " + std::strerror(reason));
+UserError failure(const std::filesystem::path& path, const char* what, int reason) {
+  return UserError(path.string() + ": " + what + ": " + std::strerror(reason));
 }
 
 }  // namespace

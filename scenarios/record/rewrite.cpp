@@ -1,8 +1,8 @@
 #include "scenarios/record/rewrite.hpp"
 
 #include <map>
-#include <stdexcept>
 
+#include "scenarios/config/user_error.hpp"
 #include "scenarios/record/mcap_reader.hpp"
 
 namespace ironbird::scenarios {
@@ -16,7 +16,7 @@ void rewrite_log(const std::filesystem::path& from, const std::filesystem::path&
     const auto schema = reader.schemas().find(channel.schema);
     if (schema == reader.schemas().end() || schema->second.encoding != "ros2msg" ||
         channel.encoding != "cdr") {
-      throw std::runtime_error(from.string() + ": topic " + channel.topic + " is no ROS 2 topic");
+      throw UserError(from.string() + ": topic " + channel.topic + " is no ROS 2 topic");
     }
     numbers[id] = writer.add_channel(channel.topic, {schema->second.name, schema->second.text});
   }

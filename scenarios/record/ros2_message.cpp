@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <stdexcept>
+
+#include "scenarios/config/user_error.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -47,7 +48,7 @@ std::size_t parse_count(std::string_view text, std::string_view line) {
   std::size_t value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   if (result.ec != std::errc() || result.ptr != text.data() + text.size()) {
-    throw std::runtime_error("no length in '" + std::string(line) + "'");
+    throw UserError("no length in '" + std::string(line) + "'");
   }
   return value;
 }
@@ -90,7 +91,7 @@ bool parse_line(std::string_view line, bool ours, RawField& out) {
   const std::size_t type_end = line.find_first_of(kBlank);
   if (line.empty() || type_end == std::string_view::npos) {
     if (line.empty()) return false;
-    throw std::runtime_error("no field name in '" + std::string(line) + "'");
+    throw UserError("no field name in '" + std::string(line) + "'");
   }
   std::string_view type = line.substr(0, type_end);
   const std::string_view rest = trimmed(line.substr(type_end));
@@ -100,7 +101,7 @@ bool parse_line(std::string_view line, bool ours, RawField& out) {
   out.field.name = ours ? original_name(name, comment) : std::string(name);
   if (type.ends_with(']')) {
     const std::size_t bracket = type.find('[');
-    if (bracket == std::string_view::npos) throw std::runtime_error("no '[' in '" + std::string(line) + "'");
+    if (bracket == std::string_view::npos) throw UserError("no '[' in '" + std::string(line) + "'");
     parse_brackets(type.substr(bracket), line, out.field);
     type = type.substr(0, bracket);
   }
@@ -141,12 +142,12 @@ std::size_t find_type(const std::vector<RawMessage>& messages, const RawMessage&
       if (messages[i].name == wanted) return i;
     }
   }
-  throw std::runtime_error("type " + type + " of a field of " + user.name + " is not defined");
+  throw UserError("type " + type + " of a field of " + user.name + " is not defined");
 }
 
 /// Refuses a type that contains itself, which would have no end.
 void refuse_cycle(const std::vector<Ros2MessageType>& types, std::size_t at, std::vector<char>& open) {
-  if (open[at] == 1) throw std::runtime_error("type " + types[at].name + " contains itself");
+  if (open[at] == 1) throw UserError("type " + types[at].name + " contains itself");
   if (open[at] == 2) return;
   open[at] = 1;
   for (const Ros2Field& field : types[at].fields) {

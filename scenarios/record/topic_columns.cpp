@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <stdexcept>
 
+#include "scenarios/config/user_error.hpp"
 #include "scenarios/record/byte_cursor.hpp"
 
 namespace ironbird::scenarios {
@@ -31,10 +31,10 @@ struct TopicColumns::Node {
 class TopicColumns::Input {
  public:
   explicit Input(std::span<const std::uint8_t> message) {
-    if (message.size() < 4) throw std::runtime_error("is shorter than its header");
+    if (message.size() < 4) throw UserError("is shorter than its header");
     const std::uint8_t encoding = message[1];
     if (message[0] != 0 || (encoding != 0 && encoding != 1 && encoding != 6 && encoding != 7)) {
-      throw std::runtime_error("has an unknown encoding");
+      throw UserError("has an unknown encoding");
     }
     swapped_ = encoding == 0 || encoding == 6;
     most_alignment_ = encoding >= 6 ? 4 : 8;
@@ -69,7 +69,7 @@ class TopicColumns::Input {
 
  private:
   std::span<const std::uint8_t> take(std::size_t count) {
-    if (at_ > bytes_.size() || count > bytes_.size() - at_) throw std::runtime_error("ends too early");
+    if (at_ > bytes_.size() || count > bytes_.size() - at_) throw UserError("ends too early");
     const auto taken = bytes_.subspan(at_, count);
     at_ += count;
     return taken;
@@ -163,7 +163,7 @@ void TopicColumns::read_field(Input& input, Node& node, const Ros2Field& field) 
   if (!field.is_sequence && !field.is_array) return read_element(input, node, field);
   const std::size_t length = field.is_array ? field.length : input.get<std::uint32_t>();
   if (field.is_optional()) {
-    if (length > 1) throw std::runtime_error("has " + std::to_string(length) + " elements in " + field.name);
+    if (length > 1) throw UserError("has " + std::to_string(length) + " elements in " + field.name);
     if (length == 1) read_element(input, node, field);
     return;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,12 +8,23 @@
 
 namespace ironbird::scenarios {
 
-/// The verdicts as JUnit XML: one suite per run, one case per check; what is inconclusive or invalid is an
-/// error, not a failure. The time of a suite is the simulated time.
-std::string junit_xml(const std::vector<Verdict>& verdicts);
+/// One run as a build server sees it.
+struct JunitRun {
+  std::string name;
+  std::optional<Verdict> verdict;
+  std::string error;
 
-/// One line per check that does not pass, in the form that GitHub shows beside a change.
-/// @param file  the scenario file of each verdict, relative to the repository
-std::string annotations(const std::vector<Verdict>& verdicts, const std::vector<std::string>& files);
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("name", self.name, "", "which run, unique among them");
+    visit("verdict", self.verdict, "", "none when the flight could not be done");
+    visit("error", self.error, "", "what could not be done; empty when nothing");
+  }
+};
+
+/// The runs as JUnit XML: one suite per run, one case per check; what is inconclusive or invalid is an error,
+/// not a failure. A run without a verdict, or with an error beside it, has the case "the run", an error. The
+/// time of a suite is the simulated time.
+std::string junit_xml(const std::vector<JunitRun>& runs);
 
 }  // namespace ironbird::scenarios

@@ -1,8 +1,8 @@
 #include "scenarios/report/report.hpp"
 
 #include <fstream>
-#include <stdexcept>
 
+#include "scenarios/config/user_error.hpp"
 #include "scenarios/report/figures.hpp"
 #include "scenarios/report/page_style.hpp"
 #include "scenarios/report/plot/svg.hpp"
@@ -68,7 +68,7 @@ void write_report(const std::vector<ReportRun>& runs, const std::filesystem::pat
   std::ofstream stream(file, std::ios::binary);
   stream << report_html(runs);
   stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+  if (!stream) throw UserError(file.string() + ": cannot be written");
 }
 
 }  // namespace ironbird::scenarios

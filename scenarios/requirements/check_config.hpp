@@ -88,7 +88,7 @@ struct CheckConfig {
     visit("after", self.after, "", "moment from which on it is judged; empty: the start");
     visit("until", self.until, "", "moment up to which it is judged; empty: the end");
     visit("to", self.to, "", "target of settles, reaches and overshoot_below, a quantity; empty: 0");
-    visit("to_point", self.to_point, "", "target of settles and reaches for a vector, SI");
+    visit("to_point", self.to_point, "SI", "target of settles and reaches for a vector");
     visit("tolerated_for", self.tolerated_for, "",
           "stays_…: a violation counts only when it lasts longer than this, a quantity in s");
     visit("rms_below", self.rms_below, "", "root mean square is below this");

@@ -22,7 +22,7 @@ struct Metric {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("name", self.name, "", "stable name");
-    visit("value", self.value, "", "in `unit`; not a number when nothing was there to measure");
+    visit("value", self.value, "SI", "in `unit`; not a number when nothing was there to measure");
     visit("unit", self.unit, "", "unit of the value");
     visit("meaning", self.meaning, "", "what was measured, and when");
   }

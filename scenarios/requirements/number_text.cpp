@@ -20,7 +20,7 @@ std::string with_unit(double value, std::string_view unit) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   if (unit == "rad") return short_number(value * kDegrees) + " deg";
   if (unit == "rad/s") return short_number(value * kDegrees) + " deg/s";
-  if (unit.empty() || unit == "1") return short_number(value);
+  if (unit.empty() || unit == "1" || unit == "SI") return short_number(value);
   return short_number(value) + " " + std::string(unit);
 }
 

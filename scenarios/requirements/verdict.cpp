@@ -31,14 +31,4 @@ int exit_code(Outcome outcome) {
   return outcome == Outcome::kFail ? kCheckFailed : kNothingShown;
 }
 
-int exit_code(const std::vector<Verdict>& verdicts) {
-  const auto any = [&](Outcome outcome) {
-    return std::any_of(verdicts.begin(), verdicts.end(),
-                       [=](const Verdict& v) { return v.outcome == outcome; });
-  };
-  if (any(Outcome::kFail)) return exit_code(Outcome::kFail);
-  if (any(Outcome::kInvalid) || any(Outcome::kInconclusive)) return exit_code(Outcome::kInconclusive);
-  return exit_code(Outcome::kPass);
-}
-
 }  // namespace ironbird::scenarios

@@ -54,7 +54,4 @@ void conclude(Verdict& verdict, const std::vector<std::string>& broken_promises)
 /// What the program returns for a run: 0 pass, 1 fail, 5 inconclusive or invalid.
 int exit_code(Outcome outcome);
 
-/// The exit code of several runs: a failure outweighs what is inconclusive; 0 only when all passed.
-int exit_code(const std::vector<Verdict>& verdicts);
-
 }  // namespace ironbird::scenarios

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "scenarios/config/user_error.hpp"
+
 namespace ironbird::scenarios {
 
 namespace {
@@ -110,18 +112,18 @@ void write_verdict(const Verdict& verdict, const std::filesystem::path& file) {
   std::ofstream stream(file, std::ios::binary);
   stream << to_json(verdict);
   stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
+  if (!stream) throw UserError(file.string() + ": cannot be written");
 }
 
 Verdict read_verdict(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
+  if (!stream) throw UserError(file.string() + ": cannot be read");
   try {
     return verdict_from_json(text.str());
   } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(file.string() + ": " + error.what());
+    throw UserError(file.string() + ": " + error.what());
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string_view>
 
 #include "scenarios/requirements/number_text.hpp"
@@ -43,26 +44,86 @@ std::string headline(const Verdict& verdict) {
   return line + " (seed " + std::to_string(verdict.run.seed) + ")";
 }
 
+constexpr std::size_t kOutcomeWidth = 14;
+/// With less room than this behind the other columns, the explanation gets lines of its own.
+constexpr std::size_t kNarrowestExplanation = 24;
+
+/// Breaks the text between words where a line of `columns` would end; what follows begins `indent` further
+/// in.
+/// @param columns  0: one line
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t columns) {
+  if (columns <= indent) return text;
+  std::istringstream words(text);
+  std::string out;
+  std::size_t used = indent;
+  for (std::string word; words >> word;) {
+    const std::size_t width = width_of(word);
+    if (!out.empty() && used + 1 + width > columns) {
+      out += "\n" + std::string(indent, ' ');
+      used = indent;
+    } else if (!out.empty()) {
+      out += " ";
+      ++used;
+    }
+    out += word;
+    used += width;
+  }
+  return out;
+}
+
+/// Widths of the columns of the table, with the gaps behind them.
+struct Widths {
+  std::size_t name = 7;
+  std::size_t margin = 8;
+  std::size_t time = 6;
+
+  std::size_t before_explanation() const { return 2 + kOutcomeWidth + name + margin + time; }
+};
+
+Widths widths_of(const Verdict& verdict) {
+  Widths widths;
+  for (const CheckResult& check : verdict.checks) {
+    widths.name = std::max(widths.name, width_of(check.name) + 2);
+    widths.margin = std::max(widths.margin, width_of(margin_text(check)) + 2);
+    widths.time = std::max(widths.time, width_of(time_text(check)) + 2);
+  }
+  return widths;
+}
+
+std::string head_row(const Widths& widths) {
+  return "  " + padded("verdict", kOutcomeWidth) + padded("check", widths.name) +
+         padded("margin", widths.margin) + padded("at", widths.time) + "what was found\n";
+}
+
+std::string row(const CheckResult& check, const Widths& widths, bool colour, std::size_t columns) {
+  const std::string word = padded(std::string(name_of(check.outcome)), kOutcomeWidth);
+  return "  " + painted(word, check.outcome, colour) + padded(check.name, widths.name) +
+         padded(margin_text(check), widths.margin) + padded(time_text(check), widths.time) +
+         wrapped(check.explanation, widths.before_explanation(), columns) + "\n";
+}
+
+/// The same on a narrow terminal, line by line.
+std::string stacked_row(const CheckResult& check, bool colour, std::size_t columns) {
+  constexpr std::size_t kIndent = 4;
+  const std::string indent(kIndent, ' ');
+  const std::string word(name_of(check.outcome));
+  const std::string at = std::isnan(check.time) ? "" : " at " + time_text(check);
+  return "  " + painted(word, check.outcome, colour) + " " +
+         wrapped(check.name, kIndent + word.size(), columns) + "\n" + indent + "margin " +
+         margin_text(check) + at + "\n" + indent + wrapped(check.explanation, kIndent, columns) + "\n";
+}
+
 }  // namespace
 
-std::string verdict_table(const Verdict& verdict, bool colour) {
-  constexpr std::size_t kOutcomeWidth = 14;
-  std::size_t name_width = 5, margin_width = 6, time_width = 4;
-  for (const CheckResult& check : verdict.checks) {
-    name_width = std::max(name_width, width_of(check.name));
-    margin_width = std::max(margin_width, width_of(margin_text(check)));
-    time_width = std::max(time_width, width_of(time_text(check)));
-  }
-  std::string out = headline(verdict) + "\n";
+std::string verdict_table(const Verdict& verdict, bool colour, std::size_t columns) {
+  std::string out = wrapped(headline(verdict), 2, columns) + "\n";
   if (!verdict.checks.empty()) {
-    out += "  " + padded("verdict", kOutcomeWidth) + padded("check", name_width + 2) +
-           padded("margin", margin_width + 2) + padded("at", time_width + 2) + "what was found\n";
-  }
-  for (const CheckResult& check : verdict.checks) {
-    const std::string word = padded(std::string(name_of(check.outcome)), kOutcomeWidth);
-    out += "  " + painted(word, check.outcome, colour) + padded(check.name, name_width + 2) +
-           padded(margin_text(check), margin_width + 2) + padded(time_text(check), time_width + 2) +
-           check.explanation + "\n";
+    const Widths widths = widths_of(verdict);
+    const bool stacked = columns > 0 && columns < widths.before_explanation() + kNarrowestExplanation;
+    if (!stacked) out += head_row(widths);
+    for (const CheckResult& check : verdict.checks) {
+      out += stacked ? stacked_row(check, colour, columns) : row(check, widths, colour, columns);
+    }
   }
   const auto held = std::count_if(verdict.checks.begin(), verdict.checks.end(),
                                   [](const CheckResult& check) { return check.outcome == Outcome::kPass; });
@@ -70,7 +131,7 @@ std::string verdict_table(const Verdict& verdict, bool colour) {
          std::to_string(held) + " of " + std::to_string(verdict.checks.size()) + " checks hold\n";
   const bool reasons_are_news = verdict.outcome == Outcome::kInvalid || verdict.checks.empty();
   for (const std::string& reason : verdict.reasons) {
-    if (reasons_are_news) out += "  " + reason + "\n";
+    if (reasons_are_news) out += "  " + wrapped(reason, 2, columns) + "\n";
   }
   return out;
 }

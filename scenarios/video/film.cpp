@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "scenarios/config/user_error.hpp"
 #include "scenarios/video/frame_workers.hpp"
 
 namespace ironbird::scenarios {
@@ -93,7 +94,7 @@ bool film_to_file(const FilmScript& script, const std::filesystem::path& file, i
   return film(script, *sink, workers, progress);
 }
 
-std::vector<simulator::Image> stills(const FilmScript& script, const std::vector<std::size_t>& indices) {
+std::vector<simulator::Image> stills(const FilmScript& script, const std::vector<std::size_t>& indices) try {
   prepare_renderer_environment();
   simulator::SceneRenderer renderer(script.renderer);
   std::vector<simulator::Image> images;
@@ -102,6 +103,8 @@ std::vector<simulator::Image> stills(const FilmScript& script, const std::vector
     images.push_back(renderer.render(frame.truth, frame.camera, overlays_at(script, index)));
   }
   return images;
+} catch (const std::runtime_error& error) {
+  throw UserError(error.what());  // the machine cannot draw: the text names what it lacks
 }
 
 }  // namespace ironbird::scenarios

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "autopilot/types/flight_status.hpp"
+#include "scenarios/config/user_error.hpp"
 #include "scenarios/video/camera_work.hpp"
 #include "scenarios/video/pose_track.hpp"
 
@@ -29,7 +30,7 @@ constexpr std::array<double, 2> kTurn{1.0, -1.0};  // rotors turn left and right
 const LogTopic& need(const Log& log, const char* name) {
   const LogTopic* topic = log.topic(name);
   if (topic == nullptr || topic->time().empty()) {
-    throw std::runtime_error(std::string("film: the log has no ") + name);
+    throw UserError(std::string("film: the log has no ") + name);
   }
   return *topic;
 }

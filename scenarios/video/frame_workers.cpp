@@ -11,7 +11,9 @@
 #include <cstring>
 #include <exception>
 #include <stdexcept>
+#include <string>
 
+#include "scenarios/config/user_error.hpp"
 #include "scenarios/video/yuv.hpp"
 
 namespace ironbird::scenarios {
@@ -45,7 +47,7 @@ FrameWorkers::FrameWorkers(const FilmScript& script, int count)
       memory_size_(count_ * (kSlots * frame_size_ + kComplaintSize)) {
   void* memory = ::mmap(nullptr, memory_size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) {
-    throw std::runtime_error(std::string("film: no memory for frames: ") + std::strerror(errno));
+    throw UserError(std::string("film: no memory for frames: ") + std::strerror(errno));
   }
   memory_ = static_cast<std::uint8_t*>(memory);
   workers_.resize(count_);
@@ -70,11 +72,11 @@ void FrameWorkers::start(int index) {
   std::array<int, 2> ready{};
   std::array<int, 2> free{};
   if (::pipe2(ready.data(), O_CLOEXEC) != 0 || ::pipe2(free.data(), O_CLOEXEC) != 0) {
-    throw std::runtime_error(std::string("film: no pipe: ") + std::strerror(errno));
+    throw UserError(std::string("film: no pipe: ") + std::strerror(errno));
   }
   const pid_t process = ::fork();
   if (process < 0) {
-    throw std::runtime_error(std::string("film: no process: ") + std::strerror(errno));
+    throw UserError(std::string("film: no process: ") + std::strerror(errno));
   }
   if (process == 0) {
     ::close(ready[0]);
@@ -130,9 +132,10 @@ char* FrameWorkers::complaint(int index) const {
 std::span<const std::uint8_t> FrameWorkers::wait_for(std::size_t frame) {
   const std::size_t worker = frame % count_;
   if (!read_byte(workers_[worker].ready)) {
-    const char* words = complaint(static_cast<int>(worker));
-    throw std::runtime_error(std::string("film: frame ") + std::to_string(frame) + ": " +
-                             (*words != '\0' ? words : "the process that draws it died"));
+    const std::string what = "film: frame " + std::to_string(frame) + ": ";
+    const std::string words = complaint(static_cast<int>(worker));
+    if (words.empty()) throw std::runtime_error(what + "the process that draws it died");
+    throw UserError(what + words);
   }
   return slot(frame);
 }

@@ -7,9 +7,10 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <stdexcept>
 #include <system_error>
 #include <vector>
+
+#include "scenarios/config/user_error.hpp"
 
 #include "scenarios/video/video_sink.hpp"
 
@@ -138,7 +139,7 @@ class Mp4Sink final : public VideoSink {
   void start(std::vector<std::string> words) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-      throw std::runtime_error(std::string("film: no pipe: ") + std::strerror(errno));
+      throw UserError(std::string("film: no pipe: ") + std::strerror(errno));
     }
     input_ = ends[1];
     std::vector<char*> pointers;
@@ -162,10 +163,9 @@ class Mp4Sink final : public VideoSink {
       std::filesystem::remove(complaints_, ignored);
       const bool missing =
           error == ENOENT && std::filesystem::exists(file_.parent_path().empty() ? "." : file_.parent_path());
-      throw std::runtime_error(file_.string() + ": " +
-                               (missing
-                                    ? "the program '" + program_ + "' is needed for films and was not found"
-                                    : "cannot start '" + program_ + "': " + std::strerror(error)));
+      throw UserError(file_.string() + ": " +
+                      (missing ? "the program '" + program_ + "' is needed for films and was not found"
+                               : "cannot start '" + program_ + "': " + std::strerror(error)));
     }
   }
 
@@ -188,7 +188,7 @@ class Mp4Sink final : public VideoSink {
       }
       std::fclose(stream);
     }
-    throw std::runtime_error(file_.string() + ": '" + program_ + "' failed: " + line);
+    throw UserError(file_.string() + ": '" + program_ + "' failed: " + line);
   }
 
   std::string program_;

@@ -2,10 +2,11 @@
 
 #include <png.h>
 
-#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "scenarios/config/user_error.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -21,7 +22,7 @@ png_image empty_description() {
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
-  throw std::runtime_error(file.string() + ": " + why);
+  throw UserError(file.string() + ": " + why);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <stdexcept>
 #include <system_error>
+
+#include "scenarios/config/user_error.hpp"
 
 #include "scenarios/video/video_sink.hpp"
 
@@ -39,7 +40,7 @@ class Y4mSink final : public VideoSink {
  private:
   void check() {
     if (!stream_) {
-      throw std::runtime_error(file_.string() + ": cannot be written: " + std::strerror(errno));
+      throw UserError(file_.string() + ": cannot be written: " + std::strerror(errno));
     }
   }
 

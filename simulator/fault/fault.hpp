@@ -63,8 +63,8 @@ struct Fault {
   static void describe(Self& self, Visit&& visit) {
     visit("kind", self.kind, "1", "what goes wrong");
     visit("index", self.index, "1", "which rotor, from 0", 0.0, 7.0);
-    visit("magnitude", self.magnitude, "", "how much; the unit is that of the kind");
-    visit("vector", self.vector, "", "how much, per axis; the unit is that of the kind");
+    visit("magnitude", self.magnitude, "SI", "how much; the unit is that of the kind");
+    visit("vector", self.vector, "SI", "how much, per axis; the unit is that of the kind");
   }
 };
 

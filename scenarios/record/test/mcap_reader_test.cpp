@@ -167,7 +167,7 @@ TEST(McapReaderTest, GivesHeaderChannelsAndMetadata) {
                                     record(0x0C, text("run") + map) + record(0x0F, u32(0)) + footer(0, 0, 0) +
                                     magic()));
   EXPECT_EQ(reader.profile(), "ros2");
-  EXPECT_EQ(reader.library(), "ironbird");
+  EXPECT_EQ(reader.writer_name(), "ironbird");
   EXPECT_EQ(reader.schemas().at(1).text, "d");
   EXPECT_EQ(reader.channels().at(2).topic, "/t");
   EXPECT_EQ(reader.channels().at(2).metadata.at("k"), "v");

@@ -193,8 +193,9 @@ Verdict verdict_with(Outcome outcome) {
 }
 
 TEST(JunitTest, MapsOutcomesToCases) {
-  const std::string xml = junit_xml(
-      {verdict_with(Outcome::kPass), verdict_with(Outcome::kFail), verdict_with(Outcome::kInconclusive)});
+  const std::string xml = junit_xml({{"a<b", verdict_with(Outcome::kPass), ""},
+                                     {"b", verdict_with(Outcome::kFail), ""},
+                                     {"c", verdict_with(Outcome::kInconclusive), ""}});
   EXPECT_EQ(nesting_mistake(xml), "");
   EXPECT_NE(xml.find("<testsuite name=\"a&lt;b\" tests=\"1\" failures=\"0\" errors=\"0\" time=\"0\">"),
             std::string::npos);
@@ -207,15 +208,27 @@ TEST(JunitTest, MapsOutcomesToCases) {
 TEST(JunitTest, ShowsAnInvalidRunAsACaseOfItsOwn) {
   Verdict verdict = verdict_with(Outcome::kPass);
   conclude(verdict, {"the plant diverged"});
-  const std::string xml = junit_xml({verdict});
+  const std::string xml = junit_xml({{"a", verdict, ""}});
   EXPECT_NE(xml.find("tests=\"2\" failures=\"0\" errors=\"1\""), std::string::npos);
   EXPECT_NE(xml.find("the plant diverged"), std::string::npos);
 }
 
-TEST(AnnotationsTest, ShowsOnlyWhatDoesNotPass) {
-  EXPECT_EQ(annotations({verdict_with(Outcome::kPass)}, {"s.toml"}), "");
-  EXPECT_EQ(annotations({verdict_with(Outcome::kFail)}, {"s.toml"}),
-            "::error file=s.toml,title=name \"x\"::1 < 2\n");
+TEST(JunitTest, ShowsARunWithoutAVerdictAsAnError) {
+  const std::string xml = junit_xml({{"a", std::nullopt, "mass = \"-1\""}});
+  EXPECT_EQ(nesting_mistake(xml), "");
+  EXPECT_NE(xml.find("<testsuite name=\"a\" tests=\"1\" failures=\"0\" errors=\"1\" time=\"0\">"),
+            std::string::npos);
+  EXPECT_NE(
+      xml.find(
+          "<testcase name=\"the run\" classname=\"a\">\n      <error message=\"mass = &quot;-1&quot;\"/>"),
+      std::string::npos)
+      << xml;
+}
+
+TEST(JunitTest, ShowsWhatFailedAfterAGoodFlight) {
+  const std::string xml = junit_xml({{"a", verdict_with(Outcome::kPass), "video.mp4: disk full"}});
+  EXPECT_NE(xml.find("tests=\"2\" failures=\"0\" errors=\"1\""), std::string::npos);
+  EXPECT_NE(xml.find("disk full"), std::string::npos);
 }
 
 }  // namespace

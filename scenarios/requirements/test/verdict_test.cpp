@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 #include <string>
 
 #include "scenarios/requirements/judge.hpp"
@@ -64,16 +65,6 @@ INSTANTIATE_TEST_SUITE_P(
         OutcomeCase{"NoChecks", {}, {}, Outcome::kInconclusive, 5},
         OutcomeCase{"Invalid", {Outcome::kFail}, {"the plant diverged"}, Outcome::kInvalid, 5}),
     [](const auto& tested) { return tested.param.name; });
-
-TEST(ExitCodeTest, OfSeveralRunsIsZeroOnlyWhenAllPass) {
-  Verdict pass, fail, invalid;
-  pass.outcome = Outcome::kPass;
-  fail.outcome = Outcome::kFail;
-  invalid.outcome = Outcome::kInvalid;
-  EXPECT_EQ(exit_code(std::vector<Verdict>{pass, pass}), 0);
-  EXPECT_EQ(exit_code(std::vector<Verdict>{pass, invalid}), 5);
-  EXPECT_EQ(exit_code(std::vector<Verdict>{invalid, fail}), 1);
-}
 
 TEST(VerdictJsonTest, HasItsKeysInTheAgreedOrder) {
   const std::string expected = R"({
@@ -158,6 +149,35 @@ TEST(VerdictTableTest, AlignsItsColumns) {
       "  fail          long name  -2 m    -       found long name\n"
       "fail: 1 of 2 checks hold\n";
   EXPECT_EQ(verdict_table(example(), false), expected);
+}
+
+/// The longest line, in characters.
+std::size_t widest(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t most = 0;
+  for (std::string line; std::getline(lines, line);) most = std::max(most, line.size());
+  return most;
+}
+
+Verdict wordy() {
+  Verdict verdict = example();
+  verdict.run.seed = 7;
+  for (CheckResult& check : verdict.checks) {
+    check.explanation = "path_rms_total_m was 0.02152 m, must be below 0.05 m, and all of it is said";
+  }
+  return verdict;
+}
+
+TEST(VerdictTableTest, FitsTheTerminalAndSaysTheSame) {
+  for (const std::size_t columns : {40U, 60U, 80U, 120U}) {
+    const std::string table = verdict_table(wordy(), false, columns);
+    EXPECT_LE(widest(table), columns) << table;
+    std::istringstream words(table);
+    std::string joined;
+    for (std::string word; words >> word;) joined += word + " ";
+    EXPECT_THAT(joined, HasSubstr("must be below 0.05 m, and all of it is said")) << table;
+    EXPECT_THAT(joined, HasSubstr("+0.1 m")) << table;
+  }
 }
 
 TEST(VerdictTableTest, ColoursOnlyWhenAsked) {
