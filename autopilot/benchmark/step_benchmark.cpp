@@ -1,8 +1,11 @@
 #include <benchmark/benchmark.h>
 
+#include <memory>
+
 #include "autopilot/autopilot.hpp"
 #include "autopilot/path_manager/minimum_snap_trajectory.hpp"
 #include "autopilot/test/little_vehicle.hpp"
+#include "ci/yardstick/in_turns.hpp"
 
 namespace ironbird::autopilot {
 namespace {
@@ -46,39 +49,91 @@ AutopilotConfig with(const char* manager) {
 void whole_step(benchmark::State& state, const char* manager) {
   Flight flight(with(manager));
   SensorFrame frame = flight.vehicle.frame();
-  for (auto _ : state) {
+  yardstick::beside_rk4(state, 0.0, [&] {
     frame.imu.stamp += std::chrono::nanoseconds(1);
     frame.external_pose->stamp = frame.imu.stamp;
     benchmark::DoNotOptimize(flight.autopilot.step(frame));
-  }
+  });
 }
-BENCHMARK_CAPTURE(whole_step, smoothstep, "smoothstep_manager");
-BENCHMARK_CAPTURE(whole_step, minimum_snap, "minimum_snap_manager");
+BENCHMARK_CAPTURE(whole_step, smoothstep, "smoothstep_manager")->Name("WholeStepBesideRk4")->UseManualTime();
 
-/// Planner, manager, follower and controller without the estimator, on the way along a leg.
-void guidance_and_control(benchmark::State& state, const char* manager_kind) {
-  Flight flight(with(manager_kind));
-  const Modules modules = standard_modules();
-  const Signals& signals = flight.autopilot.signals();
-  const auto planner = modules.path_planners.make("waypoint_planner");
-  const auto manager = modules.path_managers.make(manager_kind);
-  const auto follower = modules.trajectory_followers.make("flat_pid_follower");
-  const auto controller = modules.controllers.make("cascaded_controller");
-  planner->take_over(signals);
-  controller->take_over(signals);
-  StateEstimate estimate = signals.estimate;
-  const FlightStatus status = signals.flight;
-  for (auto _ : state) {
-    estimate.stamp += std::chrono::nanoseconds(1);
-    const Route& route = planner->run(estimate, status);
-    const TrajectoryPoint& point = manager->run(route, estimate, status);
-    const ControlSetpoint& setpoint = follower->run(point, estimate, status);
-    benchmark::DoNotOptimize(controller->run(setpoint, point.landing, estimate, status.fcu));
+/// Planner, manager, follower and controller on the way along a leg, one of them at a time or all together.
+class Guidance {
+ public:
+  explicit Guidance(const char* manager)
+      : flight_(with(manager)),
+        modules_(standard_modules()),
+        planner_(modules_.path_planners.make("waypoint_planner")),
+        manager_(modules_.path_managers.make(manager)),
+        follower_(modules_.trajectory_followers.make("flat_pid_follower")),
+        controller_(modules_.controllers.make("cascaded_controller")),
+        estimate_(flight_.autopilot.signals().estimate),
+        status_(flight_.autopilot.signals().flight) {
+    planner_->take_over(flight_.autopilot.signals());
+    controller_->take_over(flight_.autopilot.signals());
+    all();
   }
-  if (controller->phase() != FlightPhase::kOffboard) state.SkipWithError("it did not fly");
+
+  void plan() { route_ = &planner_->run(estimate_, status_); }
+  void manage() { point_ = &manager_->run(*route_, estimate_, status_); }
+  void follow() { setpoint_ = &follower_->run(*point_, estimate_, status_); }
+  void control() {
+    benchmark::DoNotOptimize(controller_->run(*setpoint_, point_->landing, estimate_, status_.fcu));
+  }
+  void all() {
+    plan();
+    manage();
+    follow();
+    control();
+  }
+  /// Time has to go on for a module to do anything.
+  void tick() { estimate_.stamp += std::chrono::nanoseconds(1); }
+  bool flies() const { return controller_->phase() == FlightPhase::kOffboard; }
+
+ private:
+  Flight flight_;
+  Modules modules_;
+  std::unique_ptr<PathPlanner> planner_;
+  std::unique_ptr<PathManager> manager_;
+  std::unique_ptr<TrajectoryFollower> follower_;
+  std::unique_ptr<Controller> controller_;
+  StateEstimate estimate_;
+  FlightStatus status_;
+  const Route* route_ = nullptr;
+  const TrajectoryPoint* point_ = nullptr;
+  const ControlSetpoint* setpoint_ = nullptr;
+};
+
+void time_guidance(benchmark::State& state, const char* manager, void (Guidance::*work)()) {
+  Guidance guidance(manager);
+  yardstick::beside_rk4(state, 0.0, [&] {
+    guidance.tick();
+    (guidance.*work)();
+  });
+  if (!guidance.flies()) state.SkipWithError("it did not fly");
 }
-BENCHMARK_CAPTURE(guidance_and_control, smoothstep, "smoothstep_manager");
-BENCHMARK_CAPTURE(guidance_and_control, minimum_snap, "minimum_snap_manager");
+
+constexpr const char* kSmoothstep = "smoothstep_manager";
+constexpr const char* kMinimumSnap = "minimum_snap_manager";
+
+BENCHMARK_CAPTURE(time_guidance, planner, kSmoothstep, &Guidance::plan)
+    ->Name("PlannerBesideRk4")
+    ->UseManualTime();
+BENCHMARK_CAPTURE(time_guidance, manager, kSmoothstep, &Guidance::manage)
+    ->Name("ManagerBesideRk4")
+    ->UseManualTime();
+BENCHMARK_CAPTURE(time_guidance, snap, kMinimumSnap, &Guidance::manage)
+    ->Name("MinimumSnapManagerBesideRk4")
+    ->UseManualTime();
+BENCHMARK_CAPTURE(time_guidance, follower, kSmoothstep, &Guidance::follow)
+    ->Name("FollowerBesideRk4")
+    ->UseManualTime();
+BENCHMARK_CAPTURE(time_guidance, controller, kSmoothstep, &Guidance::control)
+    ->Name("ControllerBesideRk4")
+    ->UseManualTime();
+BENCHMARK_CAPTURE(time_guidance, all, kSmoothstep, &Guidance::all)
+    ->Name("PlannerToControllerBesideRk4")
+    ->UseManualTime();
 
 /// Planning a trajectory of least snap through as many waypoints as one holds: the longest tick there is.
 void minimum_snap_plan(benchmark::State& state) {

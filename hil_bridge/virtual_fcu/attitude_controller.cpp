@@ -65,11 +65,11 @@ void AttitudeController::rebuild(const ParameterStore& parameters, float density
 float AttitudeController::torque(int axis, const Channel& channel, const Attitude& attitude, float dt,
                                  bool integrate) {
   const std::array<float, 3> rates = {attitude.w_NB_B.x, attitude.w_NB_B.y, attitude.w_NB_B.z};
-  const std::array<float, 2> angles = {attitude.roll, attitude.pitch};
   const auto k = static_cast<std::size_t>(axis);
   if (channel.kind == ChannelKind::kRate) return rate_loops_[k].run(dt, rates[k], channel.value, integrate);
   if (channel.kind == ChannelKind::kAngle && k < angle_loops_.size()) {
-    return angle_loops_[k].run(dt, angles[k], channel.value, integrate, rates[k]);
+    const float angle = k == 0 ? attitude.roll() : attitude.pitch();
+    return angle_loops_[k].run(dt, angle, channel.value, integrate, rates[k]);
   }
   return channel.value;
 }

@@ -51,6 +51,21 @@ Triple cross(const Triple& a, const Triple& b) {
 
 }  // namespace
 
+float Attitude::roll() const {
+  return std::atan2(2.0F * (q_NB.w * q_NB.x + q_NB.y * q_NB.z),
+                    1.0F - 2.0F * (q_NB.x * q_NB.x + q_NB.y * q_NB.y));
+}
+
+float Attitude::pitch() const {
+  // Rounding takes the sine of a vertical nose just above one.
+  return std::asin(std::clamp(2.0F * (q_NB.w * q_NB.y - q_NB.z * q_NB.x), -1.0F, 1.0F));
+}
+
+float Attitude::heading() const {
+  return std::atan2(2.0F * (q_NB.w * q_NB.z + q_NB.x * q_NB.y),
+                    1.0F - 2.0F * (q_NB.y * q_NB.y + q_NB.z * q_NB.z));
+}
+
 void AttitudeFilter::configure(const ParameterStore& parameters) {
   accelerometer_lpf_ = parameters.real(parameter("ACC_LPF"));
   gyro_xy_lpf_ = parameters.real(parameter("GYRO_XY_LPF"));
@@ -107,7 +122,7 @@ void AttitudeFilter::step(const ImuInput& imu, float dt) {
   propagate({smooth.x - bias_.x + correction.gain * e.x, smooth.y - bias_.y + correction.gain * e.y,
              smooth.z - bias_.z + correction.gain * e.z},
             dt);
-  publish();
+  attitude_.w_NB_B = {rate_.x - bias_.x, rate_.y - bias_.y, rate_.z - bias_.z};
   unhealthy_ = watch_health_ && imu.stamp_us > last_accelerometer_us_ + kHealthTimeoutUs;
 }
 
@@ -197,15 +212,6 @@ void AttitudeFilter::propagate(const Triple& rate, float dt) {
     a.z += 0.5F * dt * rates.z;
   }
   normalise(a);
-}
-
-void AttitudeFilter::publish() {
-  const AttitudeQ& q = attitude_.q_NB;
-  attitude_.roll = std::atan2(2.0F * (q.w * q.x + q.y * q.z), 1.0F - 2.0F * (q.x * q.x + q.y * q.y));
-  // Rounding takes the sine of a vertical nose just above one.
-  attitude_.pitch = std::asin(std::clamp(2.0F * (q.w * q.y - q.z * q.x), -1.0F, 1.0F));
-  attitude_.heading = std::atan2(2.0F * (q.w * q.z + q.x * q.y), 1.0F - 2.0F * (q.y * q.y + q.z * q.z));
-  attitude_.w_NB_B = {rate_.x - bias_.x, rate_.y - bias_.y, rate_.z - bias_.z};
 }
 
 }  // namespace ironbird::hil_bridge::virtual_fcu

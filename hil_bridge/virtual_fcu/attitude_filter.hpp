@@ -24,20 +24,19 @@ struct AttitudeQ {
   }
 };
 
-/// What the filter believes.
+/// What the filter believes. The angles are worked out when somebody asks: a companion that commands torques
+/// never does.
 struct Attitude {
   AttitudeQ q_NB;
-  float roll = 0.0F;
-  float pitch = 0.0F;
-  float heading = 0.0F;
   Triple w_NB_B;
+
+  float roll() const;     ///< rad
+  float pitch() const;    ///< rad
+  float heading() const;  ///< rad, integrated from the gyro only
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("q_NB", self.q_NB, "1", "attitude of B in N");
-    visit("roll", self.roll, "rad", "roll angle");
-    visit("pitch", self.pitch, "rad", "pitch angle");
-    visit("heading", self.heading, "rad", "heading, integrated from the gyro only");
     visit("w_NB_B", self.w_NB_B, "rad/s", "low-passed gyro minus adaptive bias");
   }
 };
@@ -89,7 +88,6 @@ class AttitudeFilter {
   Correction external_correction(std::uint64_t stamp_us, float dt);
   Triple smoothed_rate();
   void propagate(const Triple& w, float dt);
-  void publish();
 
   Attitude attitude_;
   Triple bias_;

@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include "ci/yardstick/in_turns.hpp"
 #include "hil_bridge/virtual_fcu/firmware.hpp"
 
 // One pass of the firmware with a new IMU sample, armed, flying a companion's command through the motor model
@@ -92,31 +93,35 @@ class Flight {
   std::uint8_t mode_ = 0;
 };
 
-void run(benchmark::State& state, bool listened, bool idle_pass, std::uint8_t mode) {
+// The real firmware took 4.9 steps of a hand-written integrator for a pass with telemetry. The promise is as
+// many, and seven tenths of them when nobody listens.
+constexpr double kRealFirmware = 0.58 / 0.119;
+
+void run(benchmark::State& state, double goal, bool listened, bool idle_pass, std::uint8_t mode) {
   Flight flight(listened);
   flight.set_mode(mode);
   for (int k = 0; k < 8; ++k) flight.step(true);
   if (!flight.armed()) state.SkipWithError("the firmware did not arm");
-  for (auto _ : state) flight.step(idle_pass);
+  yardstick::beside_rk4(state, goal, [&] { flight.step(idle_pass); });
 }
 
-void BM_ImuPassWithTelemetry(benchmark::State& state) {
-  run(state, true, false, 0);
+void ImuPassWithTelemetryBesideRk4(benchmark::State& state) {
+  run(state, kRealFirmware, true, false, 0);
 }
-void BM_ImuPassInAngleMode(benchmark::State& state) {
-  run(state, true, false, 2);
+void ImuPassInAngleModeBesideRk4(benchmark::State& state) {
+  run(state, 0.0, true, false, 2);
 }
-void BM_ImuPassWithoutListener(benchmark::State& state) {
-  run(state, false, false, 0);
+void ImuPassWithoutListenerBesideRk4(benchmark::State& state) {
+  run(state, 0.7 * kRealFirmware, false, false, 0);
 }
-void BM_WholeTickWithTelemetry(benchmark::State& state) {
-  run(state, true, true, 0);
+void WholeTickWithTelemetryBesideRk4(benchmark::State& state) {
+  run(state, 0.0, true, true, 0);
 }
 
-BENCHMARK(BM_ImuPassWithTelemetry);
-BENCHMARK(BM_ImuPassInAngleMode);
-BENCHMARK(BM_ImuPassWithoutListener);
-BENCHMARK(BM_WholeTickWithTelemetry);
+BENCHMARK(ImuPassWithTelemetryBesideRk4)->UseManualTime();
+BENCHMARK(ImuPassInAngleModeBesideRk4)->UseManualTime();
+BENCHMARK(ImuPassWithoutListenerBesideRk4)->UseManualTime();
+BENCHMARK(WholeTickWithTelemetryBesideRk4)->UseManualTime();
 
 }  // namespace
 }  // namespace ironbird::hil_bridge::virtual_fcu

@@ -15,8 +15,10 @@ constexpr float kRoundOff = 1e-6F;  // of float32 at magnitudes near one
 class AttitudeControllerTest : public ::testing::Test {
  protected:
   AttitudeControllerTest() {
-    attitude.roll = 0.1F;
-    attitude.pitch = -0.2F;
+    constexpr float kHalfRoll = 0.05F;
+    constexpr float kHalfPitch = -0.1F;
+    attitude.q_NB = {std::cos(kHalfRoll) * std::cos(kHalfPitch), std::sin(kHalfRoll) * std::cos(kHalfPitch),
+                     std::cos(kHalfRoll) * std::sin(kHalfPitch), -std::sin(kHalfRoll) * std::sin(kHalfPitch)};
     attitude.w_NB_B = {0.3F, -0.4F, 0.5F};
     for (Channel& channel : command.u) channel.active = true;
     set_torques(ChannelKind::kAngle, ChannelKind::kAngle, ChannelKind::kRate);

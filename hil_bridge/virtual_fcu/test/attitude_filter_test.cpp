@@ -190,8 +190,8 @@ TEST_F(AttitudeFilterTest, LowPassesEachSensorWithItsOwnConstant) {
 TEST_F(AttitudeFilterTest, StaysLevelAtRest) {
   for (int k = 0; k < 400; ++k) step({0, 0, -kG}, Vector3::Zero());
   EXPECT_EQ(filter.attitude().q_NB.w, 1.0F);
-  EXPECT_EQ(filter.attitude().roll, 0.0F);
-  EXPECT_EQ(filter.attitude().pitch, 0.0F);
+  EXPECT_EQ(filter.attitude().roll(), 0.0F);
+  EXPECT_EQ(filter.attitude().pitch(), 0.0F);
 }
 
 TEST_F(AttitudeFilterTest, TakesTwoSamplesToStart) {
@@ -208,15 +208,15 @@ TEST_F(AttitudeFilterTest, TurnsHeadingByTheIntegralOfTheGyroAlone) {
   for (int k = 0; k < 400; ++k) step({0, 0, -kG}, {0.0, 0.0, 0.5});
   // The low pass and the smoothing start from rest: 0.3/0.7 and 0.5 steps behind.
   constexpr double kLagSteps = 0.3 / 0.7 + 0.5;
-  EXPECT_NEAR(filter.attitude().heading, 0.5 * kDt * (400.0 - kLagSteps), 1e-4);
+  EXPECT_NEAR(filter.attitude().heading(), 0.5 * kDt * (400.0 - kLagSteps), 1e-4);
 }
 
 TEST_F(AttitudeFilterTest, LeansTowardsTheAccelerometer) {
   const double roll = 0.2;
   const Vector3 f(0.0, -kG * std::sin(roll), -kG * std::cos(roll));
   for (int k = 0; k < 1200; ++k) step(f, Vector3::Zero());
-  EXPECT_NEAR(filter.attitude().roll, roll, 0.02);  // 3 s at ten times the gain 0.5
-  EXPECT_NEAR(filter.attitude().pitch, 0.0, 1e-5);
+  EXPECT_NEAR(filter.attitude().roll(), roll, 0.02);  // 3 s at ten times the gain 0.5
+  EXPECT_NEAR(filter.attitude().pitch(), 0.0, 1e-5);
 }
 
 TEST_F(AttitudeFilterTest, IgnoresAnAccelerometerOutsideItsMargin) {
@@ -225,9 +225,9 @@ TEST_F(AttitudeFilterTest, IgnoresAnAccelerometerOutsideItsMargin) {
   const auto tilted = [](double norm) { return Vector3(0.0, -norm * std::sin(0.2), -norm * std::cos(0.2)); };
   step(tilted(1.101 * kG), Vector3::Zero());
   step(tilted(0.899 * kG), Vector3::Zero());
-  EXPECT_EQ(filter.attitude().roll, 0.0F);
+  EXPECT_EQ(filter.attitude().roll(), 0.0F);
   step(tilted(1.099 * kG), Vector3::Zero());
-  EXPECT_GT(filter.attitude().roll, 0.0F);
+  EXPECT_GT(filter.attitude().roll(), 0.0F);
 }
 
 TEST_F(AttitudeFilterTest, UsesTenfoldGainsBeforeTheInitialTimeEnds) {
@@ -235,11 +235,11 @@ TEST_F(AttitudeFilterTest, UsesTenfoldGainsBeforeTheInitialTimeEnds) {
   restart();
   const Vector3 f(0.0, -kG * std::sin(0.1), -kG * std::cos(0.1));
   step(f, Vector3::Zero());  // at 5 ms
-  const double early = filter.attitude().roll;
+  const double early = filter.attitude().roll();
   restart();
   now_us = 7500;
   step(f, Vector3::Zero());  // at 10 ms: no longer before
-  EXPECT_NEAR(early / filter.attitude().roll, 10.0, 0.01);
+  EXPECT_NEAR(early / filter.attitude().roll(), 10.0, 0.01);
 }
 
 TEST_F(AttitudeFilterTest, BecomesUnhealthyAfterHalfASecondWithoutAnAccelerometer) {
@@ -270,12 +270,12 @@ TEST_F(AttitudeFilterTest, FollowsAnExternalAttitudeInHeadingToo) {
   // First correction by hand: X and Y rows each contribute sin(0.3) about z, one step after the start.
   filter.set_external(turned);
   step({0, 0, -kG}, Vector3::Zero());
-  EXPECT_NEAR(filter.attitude().heading, 1.5 * 2.0 * std::sin(heading) * kDt, 2e-5);
+  EXPECT_NEAR(filter.attitude().heading(), 1.5 * 2.0 * std::sin(heading) * kDt, 2e-5);
   for (int k = 0; k < 2000; ++k) {
     filter.set_external(turned);
     step({0, 0, -kG}, Vector3::Zero());
   }
-  EXPECT_NEAR(filter.attitude().heading, heading, 1e-3);
+  EXPECT_NEAR(filter.attitude().heading(), heading, 1e-3);
 }
 
 TEST_F(AttitudeFilterTest, WeighsAnExternalAttitudeByTheTimeSinceTheLast) {
@@ -284,10 +284,10 @@ TEST_F(AttitudeFilterTest, WeighsAnExternalAttitudeByTheTimeSinceTheLast) {
   for (int k = 0; k < 9; ++k) step({0, 0, -kG}, Vector3::Zero());
   filter.set_external({static_cast<float>(std::cos(0.05)), 0, 0, static_cast<float>(std::sin(0.05))});
   step({0, 0, -kG}, Vector3::Zero());  // ten steps after the start
-  EXPECT_NEAR(filter.attitude().heading, 10.0 * 1.5 * 2.0 * std::sin(0.1) * kDt, 2e-5);
-  const float once = filter.attitude().heading;
+  EXPECT_NEAR(filter.attitude().heading(), 10.0 * 1.5 * 2.0 * std::sin(0.1) * kDt, 2e-5);
+  const float once = filter.attitude().heading();
   step({0, 0, -kG}, Vector3::Zero());
-  EXPECT_NEAR(filter.attitude().heading, once, 2e-5) << "it acts in one step only";
+  EXPECT_NEAR(filter.attitude().heading(), once, 2e-5) << "it acts in one step only";
 }
 
 TEST_F(AttitudeFilterTest, TakesTenfoldAccelerometerGainsForAnExternalAttitudeToo) {

@@ -288,8 +288,8 @@ TEST(FirmwareTelemetryTest, WorksWithNobodyListening) {
     quiet.pass(board);
     loud.imu_pass({0.3F, 0, -9.7F}, {0, 0.1F, 0});
   }
-  EXPECT_EQ(quiet.filter().attitude().pitch, loud.firmware().filter().attitude().pitch);
-  EXPECT_NE(quiet.filter().attitude().pitch, 0.0F);
+  EXPECT_EQ(quiet.filter().attitude().pitch(), loud.firmware().filter().attitude().pitch());
+  EXPECT_NE(quiet.filter().attitude().pitch(), 0.0F);
 }
 
 TEST(FirmwareTelemetryTest, SaysTheControlModeOfTheRollChannel) {

@@ -98,8 +98,8 @@ TEST(VirtualFcuTest, HoldsTheAnglesOfTheCompanion) {
   // A vehicle that flies freely feels its thrust along the body: the filter leans towards level by 0.5 1/s,
   // the truth follows, and the damping of that slow turn costs PID_ROLL_ANG_D / PID_ROLL_ANG_P of it.
   EXPECT_NEAR(roll, 0.2, 0.15);
-  EXPECT_NEAR(static_cast<double>(flight.fcu.firmware().filter().attitude().roll), 0.2, 0.03);
-  EXPECT_NEAR(static_cast<double>(flight.fcu.firmware().filter().attitude().pitch), -0.1, 0.03);
+  EXPECT_NEAR(static_cast<double>(flight.fcu.firmware().filter().attitude().roll()), 0.2, 0.03);
+  EXPECT_NEAR(static_cast<double>(flight.fcu.firmware().filter().attitude().pitch()), -0.1, 0.03);
   EXPECT_LT(pitch, 0.0);
   EXPECT_GT(truth.v_NB_N.y(), 0.5) << "to the right";
   EXPECT_GT(truth.v_NB_N.x(), 0.2) << "forward";

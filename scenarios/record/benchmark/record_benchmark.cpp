@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "autopilot/signals.hpp"
+#include "ci/yardstick/in_turns.hpp"
 #include "scenarios/record/crc32.hpp"
 #include "scenarios/record/recorder.hpp"
 #include "simulator/types/truth.hpp"
@@ -30,21 +31,20 @@ autopilot::Signals flying_signals() {
 template <class T>
 void encode(benchmark::State& state, const T& value) {
   ByteBuffer out(1 << 16);
-  for (auto _ : state) {
+  yardstick::beside_rk4(state, 0.0, [&] {
     out.clear();
     encode_cdr(value, out);
     benchmark::DoNotOptimize(out.data());
-  }
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(out.size()));
+  });
 }
 
-void EncodeTruth(benchmark::State& state) {
+void EncodeTruthBesideRk4(benchmark::State& state) {
   encode(state, simulator::Truth{});
 }
-void EncodeEstimate(benchmark::State& state) {
+void EncodeEstimateBesideRk4(benchmark::State& state) {
   encode(state, autopilot::StateEstimate{});
 }
-void EncodeSignals(benchmark::State& state) {
+void EncodeSignalsBesideRk4(benchmark::State& state) {
   encode(state, flying_signals());
 }
 
@@ -78,64 +78,85 @@ std::vector<Tick> one_second() {
   return ticks;
 }
 
-/// One simulated second of a flight with 400 ticks: six signals and the truth, each at range(0) Hz.
-void RecordOneSecond(benchmark::State& state, const McapOptions& options) {
-  const std::vector<Tick> ticks = one_second();
-  autopilot::Signals signals;
-  simulator::Truth truth;
-  Recorder recorder(log_file(), {.file = options, .topics = {}});
-  const microseconds period(1000000 / state.range(0));
-  recorder.add("/autopilot/sensors", signals.sensors, period);
-  recorder.add("/autopilot/flight", signals.flight, period);
-  recorder.add("/autopilot/estimate", signals.estimate, period);
-  recorder.add("/autopilot/trajectory", signals.trajectory, period);
-  recorder.add("/autopilot/setpoint", signals.setpoint, period);
-  recorder.add("/autopilot/command", signals.command, period);
-  recorder.add("/truth", truth, period);
-  std::chrono::nanoseconds now{0};
-  for (auto _ : state) {
-    for (std::size_t i = 0; i < ticks.size(); ++i, now += microseconds(2500)) {
+/// A recorder of six signals and the truth, each at `rate`.
+class Recording {
+ public:
+  Recording(const McapOptions& options, std::int64_t rate)
+      : recorder_(log_file(), {.file = options, .topics = {}}) {
+    const microseconds period(1000000 / rate);
+    recorder_.add("/autopilot/sensors", signals_.sensors, period);
+    recorder_.add("/autopilot/flight", signals_.flight, period);
+    recorder_.add("/autopilot/estimate", signals_.estimate, period);
+    recorder_.add("/autopilot/trajectory", signals_.trajectory, period);
+    recorder_.add("/autopilot/setpoint", signals_.setpoint, period);
+    recorder_.add("/autopilot/command", signals_.command, period);
+    recorder_.add("/truth", truth_, period);
+  }
+  ~Recording() {
+    recorder_.close();
+    std::filesystem::remove(log_file());
+  }
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+
+  /// One simulated second: 400 ticks.
+  void record_one_second() {
+    for (const Tick& tick : ticks_) {
       // The route is left out: it is a vector, and copying it is not recording.
-      truth = ticks[i].truth;
-      signals.estimate = ticks[i].signals.estimate;
-      signals.sensors.imu = ticks[i].signals.sensors.imu;
-      signals.trajectory = ticks[i].signals.trajectory;
-      recorder.observe(now);
+      truth_ = tick.truth;
+      signals_.estimate = tick.signals.estimate;
+      signals_.sensors.imu = tick.signals.sensors.imu;
+      signals_.trajectory = tick.signals.trajectory;
+      recorder_.observe(now_);
+      now_ += microseconds(2500);
     }
   }
-  recorder.close();
-  const auto bytes = static_cast<double>(recorder.file().file_size());
-  const auto messages = static_cast<double>(recorder.file().message_count());
+
+  const McapWriter& file() const { return recorder_.file(); }
+
+ private:
+  std::vector<Tick> ticks_ = one_second();
+  autopilot::Signals signals_;
+  simulator::Truth truth_;
+  Recorder recorder_;
+  std::chrono::nanoseconds now_{0};
+};
+
+/// A tick's worth of log beside a step of the hand-written integrator, written to the disk.
+void RecordBesideRk4(benchmark::State& state, const McapOptions& options) {
+  constexpr int kTicks = 400;
+  Recording recording(options, state.range(0));
+  yardstick::HandWrittenRk4 rk4;
+  const auto step = [&] {
+    for (int i = 0; i < kTicks; ++i) rk4.step(2.5e-3);
+  };
+  yardstick::in_turns(
+      state, {.pieces = kTicks}, [&] { recording.record_one_second(); }, step, [] {});
   const auto seconds = static_cast<double>(state.iterations());
-  state.SetBytesProcessed(static_cast<std::int64_t>(bytes));
-  state.counters["messages_per_second"] = messages / seconds;
-  state.counters["kB_per_second"] = 1e-3 * bytes / seconds;
-  std::filesystem::remove(log_file());
+  state.counters["messages_per_second"] = static_cast<double>(recording.file().message_count()) / seconds;
+  state.counters["kB_per_second"] = 1e-3 * static_cast<double>(recording.file().file_size()) / seconds;
 }
 
-BENCHMARK(EncodeTruth);
-BENCHMARK(EncodeEstimate);
-BENCHMARK(EncodeSignals);
+BENCHMARK(EncodeTruthBesideRk4)->UseManualTime();
+BENCHMARK(EncodeEstimateBesideRk4)->UseManualTime();
+BENCHMARK(EncodeSignalsBesideRk4)->UseManualTime();
 BENCHMARK(Checksum);
-// The number of iterations is fixed so that the file stays small: 2 000 simulated seconds.
-BENCHMARK_CAPTURE(RecordOneSecond, Stored, McapOptions{})
+// The number of iterations is fixed so that the file stays small.
+BENCHMARK_CAPTURE(RecordBesideRk4, Stored, McapOptions{})
     ->Arg(400)
     ->Arg(100)
-    ->Arg(50)
-    ->Iterations(2000)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(RecordOneSecond, Compressed, McapOptions{.compress = true})
+    ->Iterations(1000)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(RecordBesideRk4, Compressed, McapOptions{.compress = true})
     ->Arg(400)
     ->Arg(100)
-    ->Arg(50)
-    ->Iterations(500)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(RecordOneSecond, Journal, McapOptions{.journal = true})
+    ->Iterations(300)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(RecordBesideRk4, Journal, McapOptions{.journal = true})
     ->Arg(400)
     ->Arg(100)
-    ->Arg(50)
-    ->Iterations(500)
-    ->Unit(benchmark::kMicrosecond);
+    ->Iterations(300)
+    ->UseManualTime();
 
 }  // namespace
 }  // namespace ironbird::scenarios

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "ci/yardstick/in_turns.hpp"
 #include "scenarios/requirements/judge.hpp"
 
 namespace ironbird::scenarios {
@@ -29,15 +30,15 @@ struct Flight {
   }
 };
 
-void MetricsPerTick(benchmark::State& state) {
+void MetricsOfATickBesideRk4(benchmark::State& state) {
   Flight flight;
   RunMetrics metrics({&flight.truth, &flight.signals});
   std::chrono::nanoseconds now{0};
-  for (auto _ : state) metrics.observe(now += kTick);
+  yardstick::beside_rk4(state, 0.0, [&] { metrics.observe(now += kTick); });
 }
-BENCHMARK(MetricsPerTick);
+BENCHMARK(MetricsOfATickBesideRk4)->UseManualTime();
 
-void JudgePerTick(benchmark::State& state) {
+void JudgeOfATickBesideRk4(benchmark::State& state) {
   Flight flight;
   SignalTable table;
   table.add("truth", flight.truth);
@@ -56,9 +57,9 @@ void JudgePerTick(benchmark::State& state) {
     checks.push_back(kinds[static_cast<std::size_t>(i) % kinds.size()]);
   Judge judge(checks, table, {&flight.truth, &flight.signals}, kTick);
   std::chrono::nanoseconds now{0};
-  for (auto _ : state) judge.observe(now += kTick);
+  yardstick::beside_rk4(state, 0.0, [&] { judge.observe(now += kTick); });
 }
-BENCHMARK(JudgePerTick)->Arg(0)->Arg(3)->Arg(9);
+BENCHMARK(JudgeOfATickBesideRk4)->Arg(0)->Arg(3)->Arg(9)->UseManualTime();
 
 }  // namespace
 }  // namespace ironbird::scenarios

@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include "ci/yardstick/in_turns.hpp"
 #include "simulator/sensors/sensor_suite.hpp"
 
 namespace ironbird::simulator {
@@ -34,7 +35,7 @@ SensorSuiteParams usual() {
   return params;
 }
 
-void AllSensorsPerTick(benchmark::State& state) {
+void AllSensorsOfATickBesideRk4(benchmark::State& state) {
   SensorSuite suite(usual(), SensorSite{}, kTick, 1);
   Truth truth;
   truth.rotor_speed = {470.0, 471.0, 472.0, 473.0};
@@ -42,14 +43,14 @@ void AllSensorsPerTick(benchmark::State& state) {
   const FaultState faults;
   Readings readings;
   Time now{};
-  for ([[maybe_unused]] auto _ : state) {
+  yardstick::beside_rk4(state, 0.0, [&] {
     now += kTick;
     readings = Readings{};
     suite.sample(truth, now, faults, readings);
     benchmark::DoNotOptimize(readings);
-  }
+  });
 }
-BENCHMARK(AllSensorsPerTick);
+BENCHMARK(AllSensorsOfATickBesideRk4)->UseManualTime();
 
 }  // namespace
 }  // namespace ironbird::simulator
