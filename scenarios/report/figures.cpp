@@ -62,7 +62,11 @@ class PanelMaker {
   void add_bound(std::size_t run, const Curve& sigma) {
     constexpr double kSigmas = 3.0;
     if (sigma.empty()) return;
-    plot::Strip strip{runs_.size() == 1 ? "3\u03c3" : "", "c" + std::to_string(run % 8), sigma.time, {}, {}};
+    plot::Strip strip{runs_.size() == 1 ? "3\u03c3" : "",
+                      "c" + std::to_string(run % 8) + (runs_.size() == 1 ? "" : " several"),
+                      sigma.time,
+                      {},
+                      {}};
     strip.high = scaled(sigma, kSigmas).value;
     strip.low = scaled(sigma, -kSigmas).value;
     panel_.strips.push_back(std::move(strip));
@@ -311,10 +315,11 @@ plot::TimeStack attitude_and_speed(const std::vector<ReportRun>& runs) {
 plot::TimeStack path_errors(const std::vector<ReportRun>& runs) {
   plot::TimeStack stack{"Distance from the planned path", {}, 1180.0, 120.0};
   PanelMaker maker(runs, "distance to the waypoints' polyline, first to last waypoint", "m", 0.02);
-  const bool has_routes = std::any_of(runs.begin(), runs.end(), [](const ReportRun& run) {
-    return !waypoints_of(run).empty() && !run.time(kEstimateTopic).empty();
+  const bool flew = std::any_of(runs.begin(), runs.end(), [](const ReportRun& run) {
+    return !run.time(kTrajectory).empty() && !run.time(kEstimateTopic).empty();
   });
-  if (has_routes) maker.when_empty("no leg between two waypoints was flown");
+  // A flight without waypoints has a log without a route, and nothing is missing from it.
+  if (flew) maker.when_empty("no leg between two waypoints was flown");
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::string needed = ", /autopilot/route, /autopilot/trajectory";
     maker.add(Role::kTruth, i, path_distance(runs[i], kTruthTopic), kTruthTopic + needed);

@@ -143,7 +143,26 @@ void Painter::plate(const Vector3& center_N, double radius_px, Pixel fill, Pixel
   }
   const int left = static_cast<int>(std::lround(center->u - 0.5 * letters.text_width(label)));
   const int baseline = static_cast<int>(std::lround(center->v + 0.5 * letters.cap_height()));
-  text(left, baseline, label, rim, letters);
+  text(left, baseline, label, rim, letters, center->depth);
+}
+
+void Painter::halo(const Vector3& center_N, double radius_px, double width, Pixel color, double opacity) {
+  const std::optional<ScreenPoint> center = projection_.project(center_N);
+  if (!center) {
+    return;
+  }
+  const double reach = radius_px + 0.5 * width + 1.0;
+  const auto rows = pixel_span(center->v - reach, center->v + reach, image_.height());
+  const auto columns = pixel_span(center->u - reach, center->u + reach, image_.width());
+  for (int y = rows.first; y <= rows.second; ++y) {
+    for (int x = columns.first; x <= columns.second; ++x) {
+      const double r = std::hypot(x + 0.5 - center->u, y + 0.5 - center->v);
+      const double cover = std::clamp(0.5 * width + 0.5 - std::abs(r - radius_px), 0.0, 1.0);
+      if (cover > 0.0) {
+        blend(image_.at(x, y), color, opacity * cover);
+      }
+    }
+  }
 }
 
 void Painter::rotor(const Vector3& center_N, const Vector3& axis_N, const Vector3& blade_N, double radius) {
@@ -184,7 +203,8 @@ void Painter::rotor(const Vector3& center_N, const Vector3& axis_N, const Vector
   }
 }
 
-void Painter::text(int left, int baseline, std::string_view text, Pixel color, const GlyphAtlas& letters) {
+void Painter::text(int left, int baseline, std::string_view text, Pixel color, const GlyphAtlas& letters,
+                   double depth) {
   int pen = left - letters.left_bearing();
   const int top = baseline - letters.baseline();
   for (const char character : text) {
@@ -193,7 +213,8 @@ void Painter::text(int left, int baseline, std::string_view text, Pixel color, c
       for (int x = std::max(0, -pen); x < std::min(glyph.width, image_.width() - pen); ++x) {
         const std::uint8_t cover = glyph.coverage[static_cast<std::size_t>(y * glyph.width + x)];
         if (cover > 0) {
-          blend(image_.at(pen + x, top + y), color, cover / 255.0);
+          const double seen = depth < depth_.at(pen + x, top + y) + 0.02 ? 1.0 : kHiddenOpacity;
+          blend(image_.at(pen + x, top + y), color, seen * cover / 255.0);
         }
       }
     }

@@ -45,11 +45,16 @@ class Painter {
   void plate(const Vector3& center_N, double radius_px, Pixel fill, Pixel rim, double opacity,
              std::string_view label, const GlyphAtlas& letters);
 
+  /// A ring of constant size in the picture, in front of everything.
+  void halo(const Vector3& center_N, double radius_px, double width, Pixel color, double opacity);
+
   /// A spinning rotor: a translucent disc with the streaks of its two blades.
   void rotor(const Vector3& center_N, const Vector3& axis_N, const Vector3& blade_N, double radius);
 
   /// @param left, baseline  px
-  void text(int left, int baseline, std::string_view text, Pixel color, const GlyphAtlas& letters);
+  /// @param depth  m, where the text stands; 0: in front of everything
+  void text(int left, int baseline, std::string_view text, Pixel color, const GlyphAtlas& letters,
+            double depth = 0.0);
 
   /// Darkens a rectangle.
   void shade(int left, int top, int right, int bottom, double opacity);

@@ -19,6 +19,9 @@ constexpr float kNothing = 1e9F;       // m, depth where there is nothing solid
 constexpr double kGhostBegins = 0.05;  // m between truth and estimate, from where the ghost shows
 constexpr double kGhostFull = 0.40;    // m
 
+constexpr double kSmallVehicle = 20.0;  // px at 720 rows: a vehicle of a smaller radius is ringed
+constexpr double kHalo = 20.0;          // px at 720 rows, just outside a waypoint's plate
+
 constexpr Pixel kPathColor{255, 255, 255, 255};
 constexpr Pixel kTrailColor{255, 132, 28, 255};
 constexpr Pixel kGhostColor{40, 214, 255, 255};
@@ -139,6 +142,8 @@ struct SceneRenderer::Parts {
                   Image& image);
   void draw_route(const Overlays& overlays, Painter& painter) const;
   void draw_text(const Overlays& overlays, Painter& painter) const;
+  void draw_halo(const RenderSample& sample, const Overlays& overlays, const Projection& projection,
+                 Painter& painter) const;
 };
 
 ShadowMap SceneRenderer::Parts::vehicle_shadow(const RenderSample& sample) {
@@ -210,6 +215,21 @@ void SceneRenderer::Parts::draw_route(const Overlays& overlays, Painter& painter
   }
 }
 
+/// From far away the vehicle is a few dark pixels, often behind a waypoint's plate: say where it is. Not in a
+/// picture without overlays, which is to show the scene alone.
+void SceneRenderer::Parts::draw_halo(const RenderSample& sample, const Overlays& overlays,
+                                     const Projection& projection, Painter& painter) const {
+  if (overlays.trail_N.empty() && overlays.waypoints.empty()) {
+    return;
+  }
+  const std::optional<ScreenPoint> center = projection.project(sample.pose.p_NB_N);
+  if (!center || projection.focal() * solids.vehicle_radius() / center->depth > kSmallVehicle * scale) {
+    return;
+  }
+  painter.halo(sample.pose.p_NB_N, kHalo * scale, 4.4 * scale, kTextColor, 0.5);
+  painter.halo(sample.pose.p_NB_N, kHalo * scale, 2.4 * scale, kTrailColor, 1.0);
+}
+
 void SceneRenderer::Parts::draw_text(const Overlays& overlays, Painter& painter) const {
   if (overlays.title.empty() && overlays.captions.empty()) {
     return;
@@ -258,6 +278,7 @@ Image SceneRenderer::render(const RenderSample& sample, const Camera& camera, co
   if (overlays.estimate) {
     parts.draw_ghost(sample, *overlays.estimate, projection, image);
   }
+  parts.draw_halo(sample, overlays, projection, painter);
   parts.draw_text(overlays, painter);
   return image;
 }

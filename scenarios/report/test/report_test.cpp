@@ -112,6 +112,16 @@ TEST_F(ReportTest, OpensALogWithoutAnything) {
             std::string::npos);
 }
 
+TEST_F(ReportTest, MissesNothingWhenNoWaypointsWereFlown) {
+  std::vector<ReportRun> runs;
+  SyntheticFlight flight;
+  flight.without_waypoints();
+  runs.push_back(flight.fly(folder("no_route"), "no_route"));
+  const std::string page = report_html(runs);
+  EXPECT_NE(page.find("no leg between two waypoints was flown"), std::string::npos);
+  EXPECT_EQ(page.find("not in the log"), std::string::npos);
+}
+
 TEST_F(ReportTest, OverlaysSeveralRuns) {
   std::vector<ReportRun> runs = one();
   runs.push_back(SyntheticFlight(0.5).fly(folder("two"), "second & other"));

@@ -94,7 +94,7 @@ void SyntheticFlight::set(double t) {
   if (t >= kHomeward) {
     trajectory.reached = 0;
     trajectory.finished = false;
-    signals_.route.waypoints.resize(1);
+    signals_.route.waypoints.resize(waypoints_ ? 1 : 0);
   }
 
   truth_.p_NB_N =
@@ -145,6 +145,7 @@ ReportRun SyntheticFlight::fly(const std::filesystem::path& folder, const std::s
   using namespace std::chrono_literals;
   std::filesystem::create_directories(folder);
   for (const Vector3d& p : kWaypoints) {
+    if (!waypoints_) break;
     autopilot::Waypoint waypoint;
     waypoint.p_N = p;
     signals_.route.waypoints.push_back(waypoint);

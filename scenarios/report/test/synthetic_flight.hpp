@@ -20,6 +20,9 @@ class SyntheticFlight {
   /// @param offset_east  what the estimate is wrong by, m
   explicit SyntheticFlight(double offset_east = 0.05) : offset_east_(offset_east) {}
 
+  /// Leaves the route empty.
+  void without_waypoints() { waypoints_ = false; }
+
   /// Flies for 60 s at 200 Hz. @param with_truth  also record the truth
   ReportRun fly(const std::filesystem::path& folder, const std::string& label, bool with_truth = true);
 
@@ -28,6 +31,7 @@ class SyntheticFlight {
   void set_estimate(double t, const EulerAngles& angles);
 
   double offset_east_;
+  bool waypoints_ = true;
   simulator::Truth truth_;
   autopilot::Signals signals_;
   hil_bridge::rosflight::RosflightOutputRaw outputs_;

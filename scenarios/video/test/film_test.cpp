@@ -14,6 +14,7 @@
 
 #include "autopilot/signals.hpp"
 #include "scenarios/record/recorder.hpp"
+#include "scenarios/requirements/timeline.hpp"
 #include "scenarios/video/camera_work.hpp"
 #include "scenarios/video/film_script.hpp"
 #include "simulator/types/truth.hpp"
@@ -165,6 +166,8 @@ TEST_F(FilmTest, IsMadeFromALog) {
     recorder.write_once("/autopilot/route", signals.route, autopilot::Time{0});
     for (int i = 0; i <= 200; ++i) {
       const autopilot::Time now = std::chrono::milliseconds(10 * i);
+      if (i == 50) recorder.write_once("/bench/event", RunEvent{0.5, "request", "go_on"}, now);
+      if (i == 60) recorder.write_once("/bench/event", RunEvent{0.6, "snapshot", "picture here"}, now);
       truth.p_NB_N = Vector3(0.02 * i, 0, -2);
       truth.rotor_speed[0] = 300.0;
       signals.estimate.p_NB_N = truth.p_NB_N + Vector3(0, 0.25, 0);
@@ -186,6 +189,7 @@ TEST_F(FilmTest, IsMadeFromALog) {
   constexpr double kRoundOff = 1e-9;
   const FilmFrame& middle = script.frames[31];
   EXPECT_NEAR(middle.truth.pose.p_NB_N.x(), 2.0 * middle.time, kRoundOff) << "interpolated between samples";
+  EXPECT_EQ(middle.captions.back(), "> go_on") << "that a picture is taken is not shown in it";
   ASSERT_TRUE(middle.estimate);
   EXPECT_NEAR(middle.estimate->p_NB_N.y(), 0.25, kRoundOff);
   EXPECT_EQ(middle.camera.p_N, Vector3(9, 9, -9));

@@ -150,6 +150,23 @@ TEST_F(SceneRendererTest, DrawsTheVehicleWhereTheProjectionSaysItIs) {
   EXPECT_NEAR(v / count, expected->v, kLopsided);
 }
 
+TEST_F(SceneRendererTest, RingsAVehicleThatIsFarAwayAndNoOther) {
+  SceneRenderer renderer(params("x650"));
+  const auto orange = [](const Pixel& p) { return p.r > 240 && p.g > 110 && p.g < 160 && p.b < 60; };
+  Overlays overlays;
+  overlays.waypoints.push_back({Vector3(kNorth, 0.0, -6.0), "", false});  // a plate in front of the vehicle
+  const RenderSample s = sample(0.0, 0.0);
+  const Camera far_view{{kNorth - 40.0, 3.0, -9.0}, {kNorth, 1.0, -6.0}, 0.8};
+  const auto expected = Projection(far_view, 640, 360).project(s.pose.p_NB_N);
+  const Center ring = center(renderer.render(s, far_view, overlays), orange);
+  ASSERT_GT(ring.count, 30);
+  EXPECT_NEAR(ring.u + 0.5, expected->u, 0.5);
+  EXPECT_NEAR(ring.v + 0.5, expected->v, 0.5);
+  EXPECT_EQ(center(renderer.render(s, far_view, {}), orange).count, 0) << "nothing but the scene is wanted";
+  const Camera near_view{{kNorth - 6.0, 3.0, -9.0}, {kNorth, 1.0, -6.0}, 0.8};
+  EXPECT_LT(center(renderer.render(s, near_view, overlays), orange).count, 30);
+}
+
 TEST_F(SceneRendererTest, DoesNotRememberWhatItDrewBefore) {
   SceneRenderer renderer(params("x650"));
   Overlays overlays;
