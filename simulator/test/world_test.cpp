@@ -283,9 +283,7 @@ TEST(WorldFaultTest, CannotHoverOnAnEmptyBattery) {
   World world = make_world(in_the_air());
   world.begin({.kind = FaultKind::kBatteryCharge, .magnitude = 0.0});
   fly(world, all(1.0), 20.0 / 0.0025);
-  const double before = world.truth().v_NB_N.z();
-  fly(world, all(1.0), 400);
-  EXPECT_GT(world.truth().v_NB_N.z(), before + 3.0) << "m/s: at full throttle it falls";
+  EXPECT_GT(world.truth().v_NB_N.z(), 10.0) << "m/s: at full throttle it falls";
 }
 
 TEST(WorldFaultTest, ReachesTheSensors) {

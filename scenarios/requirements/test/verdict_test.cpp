@@ -260,7 +260,7 @@ TEST_F(JudgeTest, MakesOneEventOfAHealthThatFlaps) {
   EXPECT_NEAR(judge.events()[2].time, 10.5, 0.011) << "half a second after the last fault";
   signals_.estimate.health = Health::kLost;
   judge.observe(1101 * 10ms);
-  EXPECT_EQ(judge.events()[3].time, 11.01) << "worse is said at once";
+  EXPECT_NEAR(judge.events()[3].time, 11.01, 1e-9) << "worse is said at once";
 }
 
 TEST_F(JudgeTest, LetsAChecksWindowOpenAtItsOwnEvents) {
