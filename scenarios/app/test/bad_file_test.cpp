@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
         OddFile{"Folder", "mkdir $F", "odd.toml: is a folder, must be a TOML file"},
         OddFile{"Device", "F=/dev/null", "/dev/null: is no regular file"},
         OddFile{"Empty", ": > $F", "odd.toml:1:1: waypoint: there is none"},
-        OddFile{"Binary", "head -c 4096 " + kProgram + " > $F", "odd.toml:1:1: "},
+        OddFile{"Binary", "head -c 4096 " + kProgram + " > $F", "odd.toml:1:"},
         OddFile{"Zeros", "truncate -s 1G $F", "has 1073741824 bytes, a configuration has at most"},
         OddFile{"NoUtf8", "printf 'title = \"\\377\"\\n' > $F", "odd.toml:1:9: "},
         OddFile{"Utf16", "printf '\\377\\376t\\0' > $F", "odd.toml:1:1: "},
