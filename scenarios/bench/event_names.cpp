@@ -55,6 +55,8 @@ void EventNames::add_flight(const Scenario& scenario) {
   names_.push_back({"arming", "unarmed"});
   for (const auto& [value, name] : enumerators(autopilot::FlightPhase{}))
     names_.push_back({"phase", std::string(name)});
+  for (const auto& [value, name] : enumerators(autopilot::PhaseCause{}))
+    names_.push_back({"cause", std::string(name)});
   if (scenario.pilot.automatic) names_.push_back({"request", "take_off"});
 }
 
