@@ -21,6 +21,10 @@ struct BoundsVisitor {
   void operator()(const char*, double value, const char*, const char*, double lower, double upper) const {
     inside = inside && value >= lower && value <= upper;
   }
+  void operator()(const char*, const Vector3& value, const char*, const char*, double lower,
+                  double upper) const {
+    inside = inside && (value.array() >= lower).all() && (value.array() <= upper).all();
+  }
 };
 
 bool is_acceptable(const Waypoint& waypoint) {

@@ -8,7 +8,10 @@ namespace ironbird::autopilot {
 
 // The twelve entry points of the controller (ROScopter paper, controller table). The number of an entry is
 // its index in ControlSetpoint. Throttle is 0..1 of what the FCU can give; thrust is newtons along -Bz,
-// positive up.
+// positive up. The bounds keep slips out of setpoints that a file gives; nothing enforces them in flight.
+
+/// A whole turn, rad.
+inline constexpr double kTurn = 6.283185307179586;
 
 /// Entry 0: hold a position and a heading.
 struct PositionHeading {
@@ -17,8 +20,8 @@ struct PositionHeading {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("p_N", self.p_N, "m", "position from the local origin");
-    visit("heading", self.heading, "rad", "heading");
+    visit("p_N", self.p_N, "m", "position from the local origin", -1e5, 1e5);
+    visit("heading", self.heading, "rad", "heading", -kTurn, kTurn);
   }
 };
 
@@ -30,9 +33,9 @@ struct VelocityHeightHeadingRate {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("v_N", self.v_N, "m/s", "velocity north and east");
-    visit("down", self.down, "m", "position down");
-    visit("heading_rate", self.heading_rate, "rad/s", "yaw rate");
+    visit("v_N", self.v_N, "m/s", "velocity north and east", -200.0, 200.0);
+    visit("down", self.down, "m", "position down", -1e4, 1e4);
+    visit("heading_rate", self.heading_rate, "rad/s", "yaw rate", -100.0, 100.0);
   }
 };
 
@@ -43,8 +46,8 @@ struct AccelerationHeadingRate {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("a_V", self.a_V, "m/s^2", "acceleration forward, right, down");
-    visit("heading_rate", self.heading_rate, "rad/s", "yaw rate");
+    visit("a_V", self.a_V, "m/s^2", "acceleration forward, right, down", -500.0, 500.0);
+    visit("heading_rate", self.heading_rate, "rad/s", "yaw rate", -100.0, 100.0);
   }
 };
 
@@ -55,8 +58,8 @@ struct VelocityHeadingRate {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("v_N", self.v_N, "m/s", "velocity");
-    visit("heading_rate", self.heading_rate, "rad/s", "yaw rate");
+    visit("v_N", self.v_N, "m/s", "velocity", -200.0, 200.0);
+    visit("heading_rate", self.heading_rate, "rad/s", "yaw rate", -100.0, 100.0);
   }
 };
 
@@ -68,9 +71,9 @@ struct PositionClimbHeading {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("p_N", self.p_N, "m", "position north and east");
-    visit("v_down", self.v_down, "m/s", "velocity down");
-    visit("heading", self.heading, "rad", "heading");
+    visit("p_N", self.p_N, "m", "position north and east", -1e5, 1e5);
+    visit("v_down", self.v_down, "m/s", "velocity down", -200.0, 200.0);
+    visit("heading", self.heading, "rad", "heading", -kTurn, kTurn);
   }
 };
 
@@ -83,10 +86,10 @@ struct AngleHeadingThrottle {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("roll", self.roll, "rad", "roll angle");
-    visit("pitch", self.pitch, "rad", "pitch angle");
-    visit("heading", self.heading, "rad", "heading");
-    visit("throttle", self.throttle, "1", "0..1");
+    visit("roll", self.roll, "rad", "roll angle", -kTurn, kTurn);
+    visit("pitch", self.pitch, "rad", "pitch angle", -kTurn, kTurn);
+    visit("heading", self.heading, "rad", "heading", -kTurn, kTurn);
+    visit("throttle", self.throttle, "1", "share of what the FCU can give", 0.0, 1.0);
   }
 };
 
@@ -99,10 +102,10 @@ struct AngleHeadingRateThrottle {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("roll", self.roll, "rad", "roll angle");
-    visit("pitch", self.pitch, "rad", "pitch angle");
-    visit("heading_rate", self.heading_rate, "rad/s", "yaw rate");
-    visit("throttle", self.throttle, "1", "0..1");
+    visit("roll", self.roll, "rad", "roll angle", -kTurn, kTurn);
+    visit("pitch", self.pitch, "rad", "pitch angle", -kTurn, kTurn);
+    visit("heading_rate", self.heading_rate, "rad/s", "yaw rate", -100.0, 100.0);
+    visit("throttle", self.throttle, "1", "share of what the FCU can give", 0.0, 1.0);
   }
 };
 
@@ -113,8 +116,8 @@ struct RateThrottle {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("w_NB_B", self.w_NB_B, "rad/s", "angular velocity");
-    visit("throttle", self.throttle, "1", "0..1");
+    visit("w_NB_B", self.w_NB_B, "rad/s", "angular velocity", -100.0, 100.0);
+    visit("throttle", self.throttle, "1", "share of what the FCU can give", 0.0, 1.0);
   }
 };
 
@@ -125,8 +128,8 @@ struct TorqueThrust {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("M_B", self.M_B, "N*m", "torque about the centre of mass");
-    visit("thrust", self.thrust, "N", "thrust along -Bz");
+    visit("M_B", self.M_B, "N*m", "torque about the centre of mass", -1e4, 1e4);
+    visit("thrust", self.thrust, "N", "thrust along -Bz", -1e5, 1e5);
   }
 };
 
@@ -139,10 +142,10 @@ struct AngleHeadingThrust {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("roll", self.roll, "rad", "roll angle");
-    visit("pitch", self.pitch, "rad", "pitch angle");
-    visit("heading", self.heading, "rad", "heading");
-    visit("thrust", self.thrust, "N", "thrust along -Bz");
+    visit("roll", self.roll, "rad", "roll angle", -kTurn, kTurn);
+    visit("pitch", self.pitch, "rad", "pitch angle", -kTurn, kTurn);
+    visit("heading", self.heading, "rad", "heading", -kTurn, kTurn);
+    visit("thrust", self.thrust, "N", "thrust along -Bz", -1e5, 1e5);
   }
 };
 
@@ -155,10 +158,10 @@ struct AngleHeadingRateThrust {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("roll", self.roll, "rad", "roll angle");
-    visit("pitch", self.pitch, "rad", "pitch angle");
-    visit("heading_rate", self.heading_rate, "rad/s", "yaw rate");
-    visit("thrust", self.thrust, "N", "thrust along -Bz");
+    visit("roll", self.roll, "rad", "roll angle", -kTurn, kTurn);
+    visit("pitch", self.pitch, "rad", "pitch angle", -kTurn, kTurn);
+    visit("heading_rate", self.heading_rate, "rad/s", "yaw rate", -100.0, 100.0);
+    visit("thrust", self.thrust, "N", "thrust along -Bz", -1e5, 1e5);
   }
 };
 
@@ -169,8 +172,8 @@ struct RateThrust {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("w_NB_B", self.w_NB_B, "rad/s", "angular velocity");
-    visit("thrust", self.thrust, "N", "thrust along -Bz");
+    visit("w_NB_B", self.w_NB_B, "rad/s", "angular velocity", -100.0, 100.0);
+    visit("thrust", self.thrust, "N", "thrust along -Bz", -1e5, 1e5);
   }
 };
 

@@ -42,6 +42,10 @@ struct GeodeticPosition {
 /// The most waypoints that a route holds, so that no tick ever needs more memory than was set aside.
 inline constexpr std::size_t kMostWaypoints = 256;
 
+/// How far from the origin a waypoint may be along each axis, m. Farther the one latitude of the local map is
+/// no longer that of the place.
+inline constexpr double kFarthestWaypoint = 1e5;
+
 /// A place to fly to and what to do there. Given either in N or on the earth; the planner fills `p_N` from
 /// `geodetic`.
 struct Waypoint {
@@ -57,9 +61,9 @@ struct Waypoint {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("kind", self.kind, "1", "goto, hold or land");
-    visit("p_N", self.p_N, "m", "position from the local origin");
+    visit("p_N", self.p_N, "m", "position from the local origin", -kFarthestWaypoint, kFarthestWaypoint);
     visit("geodetic", self.geodetic, "", "position on the earth; wins over p_N");
-    visit("heading", self.heading, "rad", "heading at the waypoint");
+    visit("heading", self.heading, "rad", "heading at the waypoint", -6.283185307179586, 6.283185307179586);
     visit("speed", self.speed, "m/s", "greatest speed on the leg to it; 0: the path manager's limit", 0.0,
           50.0);
     visit("hold_time", self.hold_time, "s", "how long a hold lasts", 0.0, 86400.0);

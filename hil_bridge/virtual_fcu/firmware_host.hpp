@@ -27,15 +27,16 @@ struct VirtualFcuConfig {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("parameters", self.parameters, "", "firmware parameters that are not at their default");
-    visit("tick", self.tick, "ns", "period of the IMU and of the control loop");
+    visit("tick", self.tick, "ns", "period of the IMU and of the control loop, whole microseconds", 1e5, 2e7);
     visit("rc_rate", self.rc_rate, "Hz",
           "frames of the pilot's receiver; the period is a whole number of ticks", 0.1, 1000.0);
     visit("rc_every_pass", self.rc_every_pass, "1",
           "a new RC frame in every pass, as the reference simulator");
     visit("two_passes", self.two_passes, "1",
           "messages and RC are taken just before the IMU pass; otherwise in it, and act one tick later");
-    visit("uplink_latency", self.uplink_latency, "ns", "companion to FCU, a whole number of ticks");
-    visit("downlink_latency", self.downlink_latency, "ns", "FCU to companion, a whole number of ticks");
+    visit("uplink_latency", self.uplink_latency, "ns", "companion to FCU, a whole number of ticks", 0.0, 1e9);
+    visit("downlink_latency", self.downlink_latency, "ns", "FCU to companion, a whole number of ticks", 0.0,
+          1e9);
     visit("pwm_resolution", self.pwm_resolution, "1", "outputs are rounded down to a multiple of it; 0: not",
           0.0, 0.1);
     visit("calibrate_imu_at_start", self.calibrate_imu_at_start, "1",

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string_view>
 
@@ -30,6 +31,9 @@ struct ParameterInfo {
   std::uint32_t default_bits = 0;
   const char* unit = "1";
   const char* meaning = "";
+  double lower =
+      -std::numeric_limits<float>::max();  ///< what a set-up may ask for; the firmware takes anything
+  double upper = std::numeric_limits<float>::max();
 };
 
 /// The name as text.
@@ -48,12 +52,16 @@ constexpr std::array<char, kNameLength> padded(std::string_view text) {
 }
 
 constexpr ParameterInfo integer(std::string_view name, std::int32_t value, const char* unit,
-                                const char* meaning) {
-  return {padded(name), ParameterType::kInteger, std::bit_cast<std::uint32_t>(value), unit, meaning};
+                                const char* meaning, double lower = std::numeric_limits<std::int32_t>::min(),
+                                double upper = std::numeric_limits<std::int32_t>::max()) {
+  return {padded(name), ParameterType::kInteger, std::bit_cast<std::uint32_t>(value), unit, meaning, lower,
+          upper};
 }
 
-constexpr ParameterInfo real(std::string_view name, float value, const char* unit, const char* meaning) {
-  return {padded(name), ParameterType::kReal, std::bit_cast<std::uint32_t>(value), unit, meaning};
+constexpr ParameterInfo real(std::string_view name, float value, const char* unit, const char* meaning,
+                             double lower = ParameterInfo{}.lower, double upper = ParameterInfo{}.upper) {
+  return {padded(name), ParameterType::kReal, std::bit_cast<std::uint32_t>(value), unit, meaning, lower,
+          upper};
 }
 
 /// "PRI_MIXER_OUT_" and a digit, and the like.
@@ -74,15 +82,15 @@ constexpr std::array<char, kNameLength> element(std::string_view stem, int input
 inline constexpr auto kBeforeMixer = std::to_array<ParameterInfo>({
     integer("BAUD_RATE", 921600, "Bd", "UART link speed, read at boot"),
     integer("SERIAL_DEVICE", 0, "1", "link port, read at boot"),
-    integer("NUM_MOTORS", 4, "1", "motors counted in the maximum thrust"),
-    real("MOTOR_RESISTANCE", 0.042F, "ohm", "winding resistance"),
-    real("MOTOR_KV", 0.01706F, "V*s/rad", "back-EMF constant, and torque constant"),
-    real("NO_LOAD_CURRENT", 1.5F, "A", "current of a free motor"),
-    real("PROP_DIAMETER", 0.381F, "m", "propeller diameter"),
-    real("PROP_CT", 0.075F, "1", "thrust coefficient"),
-    real("PROP_CQ", 0.0045F, "1", "torque coefficient"),
-    real("BATT_VOLT_MAX", 25.0F, "V", "voltage of the maximum thrust, and first filtered voltage"),
-    integer("USE_MOTOR_PARAM", 0, "1", "1: the mixer's sums are squared speeds for the motor model"),
+    integer("NUM_MOTORS", 4, "1", "motors counted in the maximum thrust", 1, 10),
+    real("MOTOR_RESISTANCE", 0.042F, "ohm", "winding resistance", 0.0001, 10),
+    real("MOTOR_KV", 0.01706F, "V*s/rad", "back-EMF constant, and torque constant", 1e-05, 10),
+    real("NO_LOAD_CURRENT", 1.5F, "A", "current of a free motor", 0, 50),
+    real("PROP_DIAMETER", 0.381F, "m", "propeller diameter", 0.01, 5),
+    real("PROP_CT", 0.075F, "1", "thrust coefficient", 1e-06, 10),
+    real("PROP_CQ", 0.0045F, "1", "torque coefficient", 1e-09, 10),
+    real("BATT_VOLT_MAX", 25.0F, "V", "voltage of the maximum thrust, and first filtered voltage", 1, 1000),
+    integer("USE_MOTOR_PARAM", 0, "1", "1: the mixer's sums are squared speeds for the motor model", 0, 1),
 });
 
 inline constexpr auto kAfterMixer = std::to_array<ParameterInfo>({
@@ -105,22 +113,22 @@ inline constexpr auto kAfterMixer = std::to_array<ParameterInfo>({
     real("X_EQ_TORQUE", 0.0F, "", "added to the roll torque in every mode"),
     real("Y_EQ_TORQUE", 0.0F, "", "added to the pitch torque in every mode"),
     real("Z_EQ_TORQUE", 0.0F, "", "added to the yaw torque in every mode"),
-    real("PID_TAU", 0.05F, "s", "time constant of the derivative filters"),
-    real("MOTOR_IDLE_THR", 0.1F, "1", "least motor output when armed; below it yaw is dropped"),
-    real("FAILSAFE_THR", -1.0F, "1", "throttle in failsafe, 0..1; outside blocks arming"),
-    integer("ARM_SPIN_MOTORS", 1, "1", "hold MOTOR_IDLE_THR when armed"),
-    integer("FILT_INIT_T", 3000, "ms", "how long after boot the filter's gains are high"),
+    real("PID_TAU", 0.05F, "s", "time constant of the derivative filters", 0, 10),
+    real("MOTOR_IDLE_THR", 0.1F, "1", "least motor output when armed; below it yaw is dropped", 0, 1),
+    real("FAILSAFE_THR", -1.0F, "1", "throttle in failsafe, 0..1; outside blocks arming", 0, 1),
+    integer("ARM_SPIN_MOTORS", 1, "1", "hold MOTOR_IDLE_THR when armed", 0, 1),
+    integer("FILT_INIT_T", 3000, "ms", "how long after boot the filter's gains are high", 0, 60000),
     real("FILT_ACC_KP", 0.5F, "1/s", "accelerometer correction gain"),
     real("FILT_KI", 0.01F, "1/s", "gyro-bias gain"),
     real("FILT_EXT_KP", 1.5F, "1/s", "external-attitude gain"),
     real("FILT_ACC_MARGIN", 0.1F, "1", "accepted relative deviation of the accelerometer's norm from g"),
-    integer("FILT_QUAD_INT", 1, "1", "quadratic smoothing of the gyro"),
-    integer("FILT_MAT_EXP", 1, "1", "closed-form rotation update; 0: Euler step"),
-    integer("FILT_USE_ACC", 1, "1", "use the accelerometer"),
-    integer("ARM_CAL_GYRO", 0, "1", "calibrate the gyro on every arming"),
-    real("GYRO_XY_LPF", 0.3F, "1", "low-pass constant, larger is slower"),
-    real("GYRO_Z_LPF", 0.3F, "1", "low-pass constant, larger is slower"),
-    real("ACC_LPF", 0.5F, "1", "low-pass constant, larger is slower"),
+    integer("FILT_QUAD_INT", 1, "1", "quadratic smoothing of the gyro", 0, 1),
+    integer("FILT_MAT_EXP", 1, "1", "closed-form rotation update; 0: Euler step", 0, 1),
+    integer("FILT_USE_ACC", 1, "1", "use the accelerometer", 0, 1),
+    integer("ARM_CAL_GYRO", 0, "1", "calibrate the gyro on every arming", 0, 1),
+    real("GYRO_XY_LPF", 0.3F, "1", "low-pass constant, larger is slower", 0, 1),
+    real("GYRO_Z_LPF", 0.3F, "1", "low-pass constant, larger is slower", 0, 1),
+    real("ACC_LPF", 0.5F, "1", "low-pass constant, larger is slower", 0, 1),
     real("GYRO_X_BIAS", 0.0F, "rad/s", "subtracted"),
     real("GYRO_Y_BIAS", 0.0F, "rad/s", "subtracted"),
     real("GYRO_Z_BIAS", 0.0F, "rad/s", "subtracted"),
@@ -145,49 +153,50 @@ inline constexpr auto kAfterMixer = std::to_array<ParameterInfo>({
     real("BARO_BIAS", 0.0F, "Pa", "mean ground pressure; in no formula"),
     real("GROUND_LEVEL", 1387.0F, "m", "pressure altitude of BARO_BIAS; in no formula"),
     real("DIFF_PRESS_BIAS", 0.0F, "Pa", "subtracted"),
-    integer("RC_TYPE", 0, "1", "0 PPM, 1 SBUS"),
-    integer("RC_X_CHN", 0, "1", "roll channel, from 0"),
-    integer("RC_Y_CHN", 1, "1", "pitch channel"),
-    integer("RC_Z_CHN", 3, "1", "yaw channel"),
-    integer("RC_F_CHN", 2, "1", "throttle channel"),
-    integer("RC_F_AXIS", 2, "1", "force axis of the throttle stick: 0 x, 1 y, 2 z"),
-    integer("RC_ATT_OVRD_CHN", 4, "1", "attitude override switch, -1 none"),
-    integer("RC_THR_OVRD_CHN", 4, "1", "throttle override switch, -1 none"),
-    integer("RC_ATT_CTRL_CHN", -1, "1", "rate or angle switch, -1: RC_ATT_MODE"),
-    integer("RC_ARM_CHN", -1, "1", "arm switch, -1: arm with the sticks"),
-    integer("RC_NUM_CHN", 6, "1", "channels that must be valid"),
+    integer("RC_TYPE", 0, "1", "0 PPM, 1 SBUS", 0, 1),
+    integer("RC_X_CHN", 0, "1", "roll channel, from 0", 0, 7),
+    integer("RC_Y_CHN", 1, "1", "pitch channel", 0, 7),
+    integer("RC_Z_CHN", 3, "1", "yaw channel", 0, 7),
+    integer("RC_F_CHN", 2, "1", "throttle channel", 0, 7),
+    integer("RC_F_AXIS", 2, "1", "force axis of the throttle stick: 0 x, 1 y, 2 z", 0, 2),
+    integer("RC_ATT_OVRD_CHN", 4, "1", "attitude override switch, -1 none", -1, 7),
+    integer("RC_THR_OVRD_CHN", 4, "1", "throttle override switch, -1 none", -1, 7),
+    integer("RC_ATT_CTRL_CHN", -1, "1", "rate or angle switch, -1: RC_ATT_MODE", -1, 7),
+    integer("RC_ARM_CHN", -1, "1", "arm switch, -1: arm with the sticks", -1, 7),
+    integer("RC_NUM_CHN", 6, "1", "channels that must be valid", 1, 24),
     integer("SWITCH_5_DIR", 1, "1", "direction of channel 4; negative: inverted"),
     integer("SWITCH_6_DIR", 1, "1", "direction of channel 5"),
     integer("SWITCH_7_DIR", 1, "1", "direction of channel 6"),
     integer("SWITCH_8_DIR", 1, "1", "direction of channel 7"),
-    real("RC_OVRD_DEV", 0.1F, "1", "stick deviation that takes over"),
-    integer("RC_OVRD_LAG_T", 1000, "ms", "how long the takeover outlasts the stick"),
-    integer("TAKE_MIN_THR", 1, "1", "the lower throttle wins"),
-    real("RC_MAX_THR", 0.7F, "1", "factor on every throttle"),
-    integer("RC_ATT_MODE", 1, "1", "0 rate, 1 angle, without a selector switch"),
+    real("RC_OVRD_DEV", 0.1F, "1", "stick deviation that takes over", 0, 1),
+    integer("RC_OVRD_LAG_T", 1000, "ms", "how long the takeover outlasts the stick", 0, 100000),
+    integer("TAKE_MIN_THR", 1, "1", "the lower throttle wins", 0, 1),
+    real("RC_MAX_THR", 0.7F, "1", "factor on every throttle", 0, 1),
+    integer("RC_ATT_MODE", 1, "1", "0 rate, 1 angle, without a selector switch", 0, 1),
     real("RC_MAX_ROLL", 0.786F, "rad", "at full stick"),
     real("RC_MAX_PITCH", 0.786F, "rad", "at full stick"),
     real("RC_MAX_ROLLRATE", 3.14159F, "rad/s", "at full stick"),
     real("RC_MAX_PITCHRATE", 3.14159F, "rad/s", "at full stick"),
     real("RC_MAX_YAWRATE", 1.507F, "rad/s", "at full stick"),
-    integer("PRIMARY_MIXER", 255, "1", "mixer under the pilot's control; 255 blocks arming"),
-    integer("SECONDARY_MIXER", 255, "1", "mixer under the companion's control; 12 and up: the primary"),
-    integer("FIXED_WING", 0, "1", "1: sticks pass straight to the mixer"),
-    integer("REV_ELEVATOR", 0, "1", "fixed wing: flips u4"),
-    integer("REV_AILERON", 0, "1", "fixed wing: flips u3"),
-    integer("REV_RUDDER", 0, "1", "fixed wing: flips u5"),
+    integer("PRIMARY_MIXER", 255, "1", "mixer under the pilot's control; 255 blocks arming", 0, 11),
+    integer("SECONDARY_MIXER", 255, "1", "mixer under the companion's control; 12 and up: the primary", 0,
+            11),
+    integer("FIXED_WING", 0, "1", "1: sticks pass straight to the mixer", 0, 1),
+    integer("REV_ELEVATOR", 0, "1", "fixed wing: flips u4", 0, 1),
+    integer("REV_AILERON", 0, "1", "fixed wing: flips u3", 0, 1),
+    integer("REV_RUDDER", 0, "1", "fixed wing: flips u5", 0, 1),
     real("IMU_ROLL", 0.0F, "deg", "mounting angle"),
     real("IMU_PITCH", 0.0F, "deg", "mounting angle"),
     real("IMU_YAW", 0.0F, "deg", "mounting angle"),
     real("MAG_ROLL", 0.0F, "deg", "mounting angle"),
     real("MAG_PITCH", 0.0F, "deg", "mounting angle"),
     real("MAG_YAW", 0.0F, "deg", "mounting angle"),
-    real("RC_ARM_THRESHOLD", 0.15F, "1", "stick margin of the arming gestures"),
-    integer("OFFBOARD_TIMEOUT", 100, "ms", "how long a command of the companion lives"),
+    real("RC_ARM_THRESHOLD", 0.15F, "1", "stick margin of the arming gestures", 0, 1),
+    integer("OFFBOARD_TIMEOUT", 100, "ms", "how long a command of the companion lives", 0, 100000),
     real("BATT_VOLT_MULT", 1.0F, "1", "factor on the measured voltage"),
     real("BATT_CURR_MULT", 1.0F, "1", "factor on the measured current"),
-    real("BATT_VOLT_LPF", 0.995F, "1", "low-pass constant; the saved value is not applied at boot"),
-    real("BATT_CURR_LPF", 0.995F, "1", "low-pass constant; the saved value is not applied at boot"),
+    real("BATT_VOLT_LPF", 0.995F, "1", "low-pass constant; the saved value is not applied at boot", 0, 1),
+    real("BATT_CURR_LPF", 0.995F, "1", "low-pass constant; the saved value is not applied at boot", 0, 1),
 });
 
 constexpr std::array<ParameterInfo, kParameterCount> make_table() {
@@ -195,11 +204,17 @@ constexpr std::array<ParameterInfo, kParameterCount> make_table() {
   std::size_t next = 0;
   for (const ParameterInfo& row : kBeforeMixer) table[next++] = row;
   for (int j = 0; j < kMixerOutputs; ++j) {
-    table[next++] = {numbered("PRI_MIXER_OUT_", j), ParameterType::kInteger, 0, "1",
-                     "kind of output: 0 auxiliary, 1 servo, 2 motor, 3 GPIO"};
+    table[next++] = {numbered("PRI_MIXER_OUT_", j),
+                     ParameterType::kInteger,
+                     0,
+                     "1",
+                     "kind of output: 0 auxiliary, 1 servo, 2 motor, 3 GPIO",
+                     0.0,
+                     3.0};
   }
   for (int j = 0; j < kMixerOutputs; ++j) {
-    table[next++] = {numbered("PRI_MIXER_PWM_", j), ParameterType::kReal, 0, "Hz", "pulse rate of an output"};
+    table[next++] = {
+        numbered("PRI_MIXER_PWM_", j), ParameterType::kReal, 0, "Hz", "pulse rate of an output", 0.0, 50e3};
   }
   for (const std::string_view stem : {std::string_view("PRI_MIXER_"), std::string_view("SEC_MIXER_")}) {
     for (int j = 0; j < kMixerOutputs; ++j) {

@@ -3,34 +3,53 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "scenarios/app/command_line.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/failure.hpp"
+#include "scenarios/app/scene.hpp"
 #include "scenarios/bench/bench.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
 
+/// What is wrong with one file: what loading finds, then what making the objects of a run finds, then what
+/// drawing it would.
+Failure failure_in(const std::string& file, const autopilot::Modules& modules, std::size_t& count) {
+  try {
+    const LoadedScenario loaded = load_scenario(file, {}, modules);
+    try {
+      const Bench bench(loaded, modules, {});
+      if (has_scene(loaded)) check_scene(loaded);
+    } catch (const std::invalid_argument& error) {
+      throw loaded.located(error);
+    }
+    return {kExitPass, file + ": no finding"};
+  } catch (const ConfigError& error) {
+    count += error.findings().size();
+    return failure_of(error);
+  } catch (const std::exception& error) {
+    ++count;
+    return failure_of(error);
+  }
+}
+
 int check(const std::vector<std::string>& files, const autopilot::Modules& modules) {
+  std::size_t count = 0, wrong = 0;
   int code = kExitPass;
   for (const std::string& file : files) {
-    try {
-      const LoadedScenario loaded = load_scenario(file, {}, modules);
-      try {
-        const Bench bench(loaded, modules, {});
-      } catch (const std::invalid_argument& error) {
-        throw loaded.located(error);
-      }
-      std::fprintf(stderr, "%s: no finding\n", file.c_str());
-    } catch (const std::exception& error) {
-      const Failure failure = failure_of(error);
-      std::fprintf(stderr, "%s\n", failure.text.c_str());
-      code = std::max(code, failure.exit_code);
-    }
+    const Failure failure = failure_in(file, modules, count);
+    std::fprintf(stderr, "%s\n", failure.text.c_str());
+    code = std::max(code, failure.exit_code);
+    wrong += failure.exit_code == kExitPass ? 0 : 1;
+  }
+  if (count > 1 || (count > 0 && files.size() > 1)) {
+    std::fprintf(stderr, "%zu finding%s in %zu of %zu file%s\n", count, count == 1 ? "" : "s", wrong,
+                 files.size(), files.size() == 1 ? "" : "s");
   }
   return code;
 }
@@ -41,7 +60,14 @@ Verb check_verb() {
   return {"check", "validate scenarios without flying them", [](CLI::App& app) {
             auto files = std::make_shared<std::vector<std::string>>();
             app.add_option("scenarios", *files, "scenario files")->required();
-            app.footer("Example:\n  ironbird check scenarios/library/*/*.toml");
+            app.footer(
+                "Tells every finding of every file in a line of its own, `file:line:column: path = value: "
+                "what is "
+                "wrong,\nwhat is allowed`, and ends with 2 when there is any.\n"
+                "Examples:\n"
+                "  ironbird check mission.toml\n"
+                "  ironbird check scenarios/library/*/*.toml\n"
+                "  ironbird check mission.toml && ironbird run mission.toml");
             return [files](const autopilot::Modules& modules) { return check(*files, modules); };
           }};
 }

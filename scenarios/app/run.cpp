@@ -1,9 +1,13 @@
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/app/command_line.hpp"
@@ -44,28 +48,33 @@ std::vector<std::pair<std::string, std::string>> split_settings(const std::vecto
 }
 
 constexpr std::uint64_t kMostSeeds = 10'000;
+/// What a whole number in a scenario file can hold.
+constexpr std::uint64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
+
+std::uint64_t parse_seed(std::string_view number, const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto read = std::from_chars(number.data(), number.data() + number.size(), seed);
+  if (read.ec == std::errc::result_out_of_range || (read.ec == std::errc() && seed > kGreatestSeed))
+    throw ConfigError("--seed " + text + ": must be at most " + std::to_string(kGreatestSeed));
+  if (read.ec != std::errc() || read.ptr != number.data() + number.size())
+    throw ConfigError("--seed " + text + ": must be a whole number >= 0, or first:last such as 1:20");
+  return seed;
+}
 
 /// "7" or "1:20". Empty: the scenario's own seed.
 std::vector<std::uint64_t> parse_seeds(const std::string& text) {
   if (text.empty()) return {};
-  if (text.find('-') != std::string::npos) throw ConfigError("--seed " + text + ": must not be negative");
-  try {
-    std::size_t used = 0;
-    const std::uint64_t first = std::stoull(text, &used);
-    if (used == text.size()) return {first};
-    if (text[used] != ':') throw std::invalid_argument(text);
-    std::size_t rest = 0;
-    const std::string tail = text.substr(used + 1);
-    const std::uint64_t last = std::stoull(tail, &rest);
-    if (rest != tail.size() || last < first) throw std::invalid_argument(text);
-    std::vector<std::uint64_t> seeds;
-    if (last - first >= kMostSeeds) throw std::invalid_argument(text);
-    for (std::uint64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
-    return seeds;
-  } catch (const std::logic_error&) {
-    throw ConfigError("--seed " + text + ": must be a number, or first:last such as 1:20, at most " +
-                      std::to_string(kMostSeeds) + " of them");
-  }
+  const std::string_view all = text;
+  const std::size_t colon = all.find(':');
+  const std::uint64_t first = parse_seed(all.substr(0, colon), text);
+  const std::uint64_t last =
+      colon == std::string_view::npos ? first : parse_seed(all.substr(colon + 1), text);
+  if (last < first) throw ConfigError("--seed " + text + ": runs backwards; the lower seed comes first");
+  if (last - first >= kMostSeeds)
+    throw ConfigError("--seed " + text + ": must be at most " + std::to_string(kMostSeeds) + " seeds");
+  std::vector<std::uint64_t> seeds(last - first + 1);
+  std::iota(seeds.begin(), seeds.end(), first);
+  return seeds;
 }
 
 /// What the command line asks for: runs that can be done, and scenarios that cannot be flown at all.

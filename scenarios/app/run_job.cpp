@@ -9,9 +9,9 @@
 #include "scenarios/app/failure.hpp"
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/products.hpp"
+#include "scenarios/app/scene.hpp"
 #include "scenarios/bench/bench.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
-#include "simulator/render/solid_layer.hpp"
 
 namespace ironbird::scenarios {
 
@@ -43,14 +43,6 @@ Verdict fly(const RunJob& job, const autopilot::Modules& modules, RunListener& l
   return verdict;
 }
 
-/// Finds out before the flight, not after it, that it cannot be drawn.
-void check_scene(const RunJob& job) {
-  const std::filesystem::path& root = job.loaded->project_root;
-  const Scenario& scenario = job.loaded->scenario;
-  simulator::check_scene((root / scenario.vehicle_folder / "scene.xml").string(),
-                         (root / scenario.field).string());
-}
-
 /// What an earlier run left in the folder must not be taken for this one's.
 void remove_old_products(const std::filesystem::path& folder) {
   std::error_code ignored;
@@ -63,7 +55,9 @@ void remove_old_products(const std::filesystem::path& folder) {
 void carry_out(const RunJob& job, const autopilot::Modules& modules, RunListener& listener,
                RunResult& result) {
   const std::filesystem::path& folder = job.name.folder;
-  if (job.products.video || job.products.snapshots) check_scene(job);
+  if (job.products.video || job.products.snapshots) check_scene(*job.loaded);
+  // A run that cannot be wired leaves the results of an earlier one alone.
+  { const Bench possible(*job.loaded, modules, {}); }
   make_folder(folder);
   remove_old_products(folder);
   bool interrupted = false;

@@ -1,8 +1,10 @@
 #include "scenarios/bench/autopilot_loader.hpp"
 
 #include <algorithm>
-#include <functional>
 
+#include "scenarios/bench/autopilot_slots.hpp"
+#include "scenarios/bench/module_rules.hpp"
+#include "scenarios/config/include.hpp"
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/config/toml_reader.hpp"
 
@@ -10,58 +12,24 @@ namespace ironbird::scenarios {
 
 namespace {
 
-using autopilot::AutopilotConfig;
 using autopilot::ParameterSlot;
 using autopilot::ParameterTable;
 using autopilot::ParameterValue;
-
-/// One slot of the autopilot: its name, its place in the configuration, and how to see the parameters of a
-/// kind.
-struct SlotAccess {
-  std::string name;
-  AutopilotConfig::Slot* slot;
-  std::function<std::vector<std::string>()> kinds;
-  /// Registers the parameters of a new module of `kind` under the slot's name. The module lives as long as
-  /// the return value.
-  std::function<std::shared_ptr<void>(const std::string& kind, ParameterTable&)> make;
-};
-
-template <class Base>
-SlotAccess access(const autopilot::ModuleSlot<Base>& slot, AutopilotConfig& config,
-                  const autopilot::Modules& modules) {
-  const autopilot::Registry<Base>& registry = modules.*slot.kinds;
-  const char* name = slot.name;
-  return {name, &(config.*slot.config), [&registry] { return registry.names(); },
-          [&registry, name](const std::string& kind, ParameterTable& table) -> std::shared_ptr<void> {
-            std::shared_ptr<Base> module = registry.make(kind);
-            if (module != nullptr) module->register_parameters(table, name);
-            return module;
-          }};
-}
-
-std::vector<SlotAccess> all_slots(AutopilotConfig& config, const autopilot::Modules& modules) {
-  std::vector<SlotAccess> slots;
-  autopilot::for_each_slot([&](const auto& slot) { slots.push_back(access(slot, config, modules)); });
-  return slots;
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 class AutopilotReader {
  public:
   AutopilotReader(const toml::table& root, LoadedScenario& loaded) : root_(root), loaded_(loaded) {}
 
   void read(SlotAccess& access) {
-    const toml::table* table = root_["autopilot"][access.name].as_table();
+    const toml::node* node = root_["autopilot"][access.name].node();
+    const toml::table* table = node == nullptr ? nullptr : node->as_table();
+    if (node != nullptr && table == nullptr) report_no_slot(*node, access);
     if (table != nullptr) read_slot(*table, access);
     const std::vector<std::string> kinds = access.kinds();
     if (std::find(kinds.begin(), kinds.end(), access.slot->kind) == kinds.end()) {
       return report("autopilot." + access.name + ".kind = \"" + access.slot->kind +
-                    "\": there is no such module; there are: " + joined(kinds));
+                    "\": there is no such module; there are: " + joined(kinds) +
+                    meant(access.slot->kind, kinds));
     }
     for (const std::string& kind : kinds) {
       ParameterTable parameters;
@@ -69,8 +37,11 @@ class AutopilotReader {
       ModuleSettings settings{access.name, kind, {}};
       set_environment(parameters, access.name, settings);
       const std::string kind_path = "autopilot.kinds." + kind;
-      if (const toml::table* own = root_["autopilot"]["kinds"][kind].as_table()) {
-        read_parameters(*own, kind_path, access.name, parameters, settings, {});
+      const toml::node* own = root_["autopilot"]["kinds"][kind].node();
+      if (own != nullptr && own->is_table()) {
+        read_parameters(*own->as_table(), kind_path, access.name, parameters, settings, {});
+      } else if (own != nullptr) {
+        report(kind_path + ": must be a table of parameters, written [" + kind_path + "]");
       }
       if (table != nullptr && kind == access.slot->kind) {
         read_parameters(*table, "autopilot." + access.name, access.name, parameters, settings,
@@ -82,8 +53,10 @@ class AutopilotReader {
 
   /// Tables that no slot and no kind has read.
   void report_unknown(const std::vector<SlotAccess>& slots) {
-    const toml::table* all = root_["autopilot"].as_table();
-    if (all == nullptr) return;
+    const toml::node* node = root_.get("autopilot");
+    if (node == nullptr) return;
+    const toml::table* all = node->as_table();
+    if (all == nullptr) return report("autopilot: must be a table, written [autopilot.estimator] and so on");
     std::vector<std::string> names = {"kinds"};
     std::vector<std::string> kinds;
     for (const SlotAccess& slot : slots) {
@@ -91,15 +64,36 @@ class AutopilotReader {
       for (const std::string& kind : slot.kinds()) kinds.push_back(kind);
     }
     report_strangers(*all, "autopilot", names);
-    if (const toml::table* tables = (*all)["kinds"].as_table())
-      report_strangers(*tables, "autopilot.kinds", kinds);
+    const toml::node* tables = all->get("kinds");
+    if (tables == nullptr) return;
+    if (!tables->is_table())
+      return report("autopilot.kinds: must be a table of tables, written [autopilot.kinds.KIND]");
+    report_strangers(*tables->as_table(), "autopilot.kinds", kinds);
   }
 
-  void finish() const {
-    if (!findings_.empty()) throw ConfigError(findings_);
+  void check_events(const std::vector<SlotAccess>& slots) {
+    for (const std::string& finding : module_findings(loaded_.scenario, slots)) {
+      const std::string path = finding.substr(0, finding.find_first_of(" :="));
+      // That a value is missing is said elsewhere.
+      if (!path.ends_with(".value") || loaded_.gives(path)) report(finding);
+    }
   }
+
+  std::vector<std::string> findings() { return std::move(findings_); }
 
  private:
+  void report_no_slot(const toml::node& node, const SlotAccess& access) {
+    const std::string header = "[autopilot." + access.name + "]";
+    const std::string kind = node.is_string() ? node.as_string()->get() : access.slot->kind;
+    report("autopilot." + access.name + ": must be a table, written " + header + " and below it kind = \"" +
+           kind + "\"");
+  }
+
+  static std::string meant(const std::string& wrong, const std::vector<std::string>& names) {
+    const std::string nearest = nearest_name(wrong, names);
+    return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+  }
+
   void read_slot(const toml::table& table, const SlotAccess& access) {
     TomlReader reader;
     const std::string path = "autopilot." + access.name;
@@ -140,14 +134,23 @@ class AutopilotReader {
       const std::string name(key.str());
       if (std::find(also_known.begin(), also_known.end(), name) != also_known.end()) continue;
       const std::string full = path + "." + name;
-      if (const toml::table* inner = node.as_table()) {
-        read_parameters(*inner, shown + "." + name, full, parameters, settings, {});
-      } else if (const ParameterSlot* slot = parameters.find(full)) {
+      const toml::table* inner = node.as_table();
+      const bool is_group = has_group(parameters, full);
+      if (const ParameterSlot* slot = parameters.find(full)) {
         settings.values.emplace_back(full, read_value(node, *slot, shown + "." + name));
+      } else if (is_group && inner != nullptr) {
+        read_parameters(*inner, shown + "." + name, full, parameters, settings, {});
+      } else if (is_group) {
+        report(shown + "." + name + ": is a group of parameters, written [" + shown + "." + name + "]");
       } else {
         report_unknown_parameter(shown + "." + name, full, settings, parameters);
       }
     }
+  }
+
+  static bool has_group(const ParameterTable& parameters, const std::string& path) {
+    return std::any_of(parameters.slots().begin(), parameters.slots().end(),
+                       [&](const ParameterSlot& slot) { return slot.path.starts_with(path + "."); });
   }
 
   ParameterValue read_value(const toml::node& node, const ParameterSlot& slot, const std::string& path) {
@@ -166,7 +169,7 @@ class AutopilotReader {
     for (const ParameterSlot& slot : parameters.slots()) names.push_back(slot.path);
     std::string text = shown + ": module \"" + settings.kind + "\" has no such parameter";
     const std::string nearest = nearest_name(full, names);
-    if (!nearest.empty()) text += "; did you mean " + nearest.substr(settings.slot.size() + 1) + "?";
+    if (!nearest.empty()) text += "; did you mean '" + nearest.substr(settings.slot.size() + 1) + "'?";
     report(text);
   }
 
@@ -175,8 +178,8 @@ class AutopilotReader {
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
       if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-      const std::string nearest = nearest_name(name, names);
-      report(path + "." + name + ": unknown" + (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+      const std::string known = nearest_name(name, names).empty() ? "; there are: " + joined(names) : "";
+      report(path + "." + name + ": unknown key" + known + meant(name, names));
     }
   }
 
@@ -184,9 +187,7 @@ class AutopilotReader {
     findings_.insert(findings_.end(), reader.findings().begin(), reader.findings().end());
   }
 
-  void report(const std::string& finding) {
-    findings_.push_back(loaded_.located(std::invalid_argument(finding)).what());
-  }
+  void report(const std::string& finding) { findings_.push_back(loaded_.located(finding)); }
 
   const toml::table& root_;
   LoadedScenario& loaded_;
@@ -198,18 +199,17 @@ class AutopilotReader {
 namespace {
 
 /// Estimators that fly on poses from outside: the virtual FCU sends none.
-void refuse_poses_from_outside(const autopilot::Modules& modules, const LoadedScenario& loaded) {
+std::vector<std::string> poses_from_outside(const autopilot::Modules& modules, const LoadedScenario& loaded) {
   const auto needs_poses = [&](const std::string& kind) {
     const std::unique_ptr<autopilot::Estimator> estimator = modules.estimators.make(kind);
     return estimator != nullptr && estimator->needs_external_pose();
   };
   std::vector<std::string> findings;
   const auto report = [&](const std::string& path, const std::string& kind) {
-    const std::invalid_argument finding(
-        path + " = \"" + kind +
-        "\": flies on poses from outside, and nothing in this bench sends any; "
-        "take \"ekf\" or \"error_state\"");
-    findings.emplace_back(loaded.located(finding).what());
+    const std::string finding = path + " = \"" + kind +
+                                "\": flies on poses from outside, and nothing in this bench sends any; "
+                                "take \"ekf\" or \"error_state\"";
+    findings.push_back(loaded.located(finding));
   };
   const std::string& first = loaded.autopilot.estimator.kind;
   if (needs_poses(first)) report("autopilot.estimator.kind", first);
@@ -219,18 +219,22 @@ void refuse_poses_from_outside(const autopilot::Modules& modules, const LoadedSc
       report("event[" + std::to_string(i) + "].kind", events[i].kind);
     }
   }
-  if (!findings.empty()) throw ConfigError(std::move(findings));
+  return findings;
 }
 
 }  // namespace
 
-void load_autopilot(const toml::table& root, const autopilot::Modules& modules, LoadedScenario& loaded) {
+std::vector<std::string> load_autopilot(const toml::table& root, const autopilot::Modules& modules,
+                                        LoadedScenario& loaded) {
   std::vector<SlotAccess> slots = all_slots(loaded.autopilot, modules);
   AutopilotReader reader(root, loaded);
   for (SlotAccess& slot : slots) reader.read(slot);
   reader.report_unknown(slots);
-  reader.finish();
-  refuse_poses_from_outside(modules, loaded);
+  reader.check_events(slots);
+  std::vector<std::string> findings = reader.findings();
+  const std::vector<std::string> poses = poses_from_outside(modules, loaded);
+  findings.insert(findings.end(), poses.begin(), poses.end());
+  return findings;
 }
 
 }  // namespace ironbird::scenarios

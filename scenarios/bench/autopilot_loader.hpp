@@ -2,6 +2,9 @@
 
 #include <toml++/toml.h>
 
+#include <string>
+#include <vector>
+
 #include "scenarios/bench/scenario_loader.hpp"
 
 namespace ironbird::scenarios {
@@ -10,7 +13,9 @@ namespace ironbird::scenarios {
 /// `[autopilot.kinds.KIND]` parameters that hold whenever a module of that kind flies, also after a swap.
 /// Units and bounds are those of the module's own parameters. Gravity, declination and inclination, where a
 /// module has them, are the environment's unless given.
-/// @throws ConfigError with one line for each finding
-void load_autopilot(const toml::table& root, const autopilot::Modules& modules, LoadedScenario& loaded);
+/// Holds the scenario's events that swap modules and set parameters against the modules there are.
+/// @return what is wrong, one line each, with its place
+std::vector<std::string> load_autopilot(const toml::table& root, const autopilot::Modules& modules,
+                                        LoadedScenario& loaded);
 
 }  // namespace ironbird::scenarios

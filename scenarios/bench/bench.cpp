@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenarios/bench/check_rules.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 #include "simulator/plant/mujoco_plant.hpp"
@@ -61,9 +62,7 @@ Bench::Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, Be
   fcu_ = std::make_unique<hil_bridge::VirtualFcu>(scenario_.fcu, *world_);
   wire_autopilot(modules);
   lockstep_ = std::make_unique<hil_bridge::Lockstep>(*fcu_, *autopilot_, scenario_.fcu.tick);
-  signals_.add("truth", world_->truth());
-  signals_.add("autopilot", autopilot_->signals());
-  signals_.add("fcu", lockstep_->telemetry());
+  add_signals(signals_, world_->truth(), autopilot_->signals(), lockstep_->telemetry());
   judge_ = std::make_unique<Judge>(scenario_.checks, signals_,
                                    RunMetrics::Sources{&world_->truth(), &autopilot_->signals()},
                                    scenario_.fcu.tick);
@@ -218,8 +217,10 @@ void Bench::record_route(Time now) {
 
 Verdict Bench::finish(double wall_seconds) {
   if (interrupted_) broken_promises_.emplace_back("the run was interrupted");
-  return judge_->finish({loaded_.name, scenario_.title, scenario_.seed, loaded_.digest}, broken_promises_,
-                        wall_seconds);
+  Verdict verdict = judge_->finish({loaded_.name, scenario_.title, scenario_.seed, loaded_.digest},
+                                   broken_promises_, wall_seconds);
+  if (!interrupted_) verdict.warnings = warnings();
+  return verdict;
 }
 
 }  // namespace ironbird::scenarios

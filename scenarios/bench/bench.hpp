@@ -88,6 +88,8 @@ class Bench {
   void watch(Time now);
   void publish_events(Time now);
   void record_route(Time now);
+  std::string name_of(const Deed& deed) const;
+  std::vector<std::string> warnings() const;
   Verdict finish(double wall_seconds);
 
   const LoadedScenario& loaded_;

@@ -1,5 +1,6 @@
 // The part of the bench that carries out the scenario's script.
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "scenarios/bench/bench.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
+#include "scenarios/requirements/number_text.hpp"
 
 namespace ironbird::scenarios {
 
@@ -33,6 +35,14 @@ autopilot::Request request_of(OperatorWish wish, const EventConfig& event) {
       return autopilot::OverrideSetpoint{std::nullopt};
   }
   throw std::invalid_argument("event.request: unknown");
+}
+
+/// A scenario gives every value as a number; truths and whole numbers are converted to what the module has.
+autopilot::ParameterValue in_type_of(const autopilot::ParameterSlot* slot, double value) {
+  if (slot != nullptr && std::holds_alternative<bool*>(slot->value)) return value != 0.0;
+  if (slot != nullptr && std::holds_alternative<int*>(slot->value))
+    return static_cast<int>(std::lround(value));
+  return value;
 }
 
 }  // namespace
@@ -83,8 +93,7 @@ void Bench::perform(const EventConfig& event, Time now) {
   }
   if (event.add_waypoint) {
     const std::optional<std::uint32_t> at =
-        event.index > 0 ? std::optional<std::uint32_t>(static_cast<std::uint32_t>(event.index))
-                        : std::nullopt;
+        event.index ? std::optional<std::uint32_t>(static_cast<std::uint32_t>(*event.index)) : std::nullopt;
     ask(autopilot::RouteRequest(autopilot::AddWaypoint{*event.add_waypoint, at}), describe_event(event), now);
     return;
   }
@@ -94,7 +103,8 @@ void Bench::perform(const EventConfig& event, Time now) {
     return;
   }
   if (!event.swap.empty()) return swap_module(event, now);
-  ask(autopilot::SetParameter{event.set, event.value}, describe_event(event), now);
+  const autopilot::ParameterSlot* slot = autopilot_->parameters().find(event.set);
+  ask(autopilot::SetParameter{event.set, in_type_of(slot, event.value)}, describe_event(event), now);
 }
 
 void Bench::begin_fault(const EventConfig& event, Time now) {
@@ -150,6 +160,40 @@ bool Bench::ask(const autopilot::Request& request, const std::string& what, Time
   judge_->event(now, outcome.accepted ? "request" : "refused",
                 outcome.accepted ? what : what + ": " + outcome.reason);
   return outcome.accepted;
+}
+
+std::string Bench::name_of(const Deed& deed) const {
+  switch (deed.kind) {
+    case Deed::Kind::kEvent:
+      return "event \"" + describe_event(scenario_.events[deed.index]) + "\"";
+    case Deed::Kind::kSnapshot:
+      return "snapshot \"" + scenario_.snapshots[deed.index].name + "\"";
+    case Deed::Kind::kEnd:
+      return "the end of the run";
+    default:
+      return "";  // the bench's own
+  }
+}
+
+std::vector<std::string> Bench::warnings() const {
+  std::vector<std::string> warnings;
+  for (const Script::Left& left : script_.left()) {
+    const Deed& deed = deeds_[left.item];
+    const std::string name = name_of(deed);
+    if (name.empty()) continue;
+    if (!left.due) {
+      warnings.push_back(name + " waited for \"" + left.after + "\", which never happened");
+    } else if (deed.kind != Deed::Kind::kEnd) {
+      warnings.push_back(name + " was due at " + with_unit(to_seconds(*left.due), "s") +
+                         ", after the end of the run");
+    }
+  }
+  for (const RunEvent& event : judge_->events()) {
+    if (event.kind == "refused") {
+      warnings.push_back("request at " + with_unit(event.time, "s") + " was refused: " + event.text);
+    }
+  }
+  return warnings;
 }
 
 }  // namespace ironbird::scenarios

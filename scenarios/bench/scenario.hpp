@@ -44,8 +44,8 @@ struct StartConfig {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("p_N", self.p_N, "m", "position from the local origin");
-    visit("heading", self.heading, "rad", "heading");
+    visit("p_N", self.p_N, "m", "position from the local origin", -1e4, 1e4);
+    visit("heading", self.heading, "rad", "heading", -6.283185307179586, 6.283185307179586);
     visit("on_ground", self.on_ground, "1", "settled on the ground; p_N's height is then the ground's");
   }
 };
@@ -148,7 +148,7 @@ struct EventConfig {
   std::string after;
   std::optional<simulator::FaultKind> fault;
   double lasts = 0.0;
-  int index = 0;
+  std::optional<int> index;
   double magnitude = 0.0;
   std::array<double, 3> vector{};
   std::optional<PilotAction> pilot;
@@ -170,21 +170,21 @@ struct EventConfig {
           "the event that `at` counts from, for example \"offboard\" or \"waypoint_1\"");
     visit("fault", self.fault, "1", "a fault begins");
     visit("lasts", self.lasts, "s", "how long the fault lasts; 0: to the end", 0.0, 86400.0);
-    visit("index", self.index, "1", "of the rotor or waypoint that is meant", 0.0, 1000.0);
+    visit("index", self.index, "1", "of the rotor or waypoint that is meant, from 0", 0.0, 1000.0);
     visit("magnitude", self.magnitude, "SI",
-          "of the fault, in its unit; of a hold, s; of the throttle stick, 0..1");
-    visit("vector", self.vector, "SI", "of the fault, in its unit");
+          "of the fault, in its unit; of a hold, s; of the throttle stick, 0..1", -1e9, 1e9);
+    visit("vector", self.vector, "SI", "of the fault, in its unit", -1e6, 1e6);
     visit("pilot", self.pilot, "1", "the pilot's hands");
     visit("request", self.request, "1", "a request of the operator");
     visit("add_waypoint", self.add_waypoint, "",
-          "a waypoint is added at the end, or before `index` when that is given");
+          "a waypoint is added at the end, or before the one with number `index`, from 0");
     visit("remove_waypoint", self.remove_waypoint, "1", "the waypoint with this index is removed", 0.0,
           1000.0);
     visit("setpoint", self.setpoint, "", "the controller flies this setpoint instead of the follower's");
     visit("swap", self.swap, "", "the module in this slot is replaced by one of `kind`");
     visit("kind", self.kind, "", "kind of the new module");
     visit("set", self.set, "", "path of a parameter of the autopilot that is set to `value`");
-    visit("value", self.value, "SI", "its new value, in the parameter's unit");
+    visit("value", self.value, "SI", "its new value, in the parameter's unit; 0 or 1 for false or true");
   }
 };
 
@@ -198,8 +198,8 @@ struct CameraConfig {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("name", self.name, "", "for snapshots and cuts");
-    visit("p_N", self.p_N, "m", "where it stands");
-    visit("target_N", self.target_N, "m", "what it looks at");
+    visit("p_N", self.p_N, "m", "where it stands", -1e5, 1e5);
+    visit("target_N", self.target_N, "m", "what it looks at", -1e5, 1e5);
     visit("field_of_view", self.field_of_view, "rad", "vertical angle of view", 0.05, 2.5);
   }
 };
@@ -285,7 +285,7 @@ struct Scenario {
     visit("vehicle", self.vehicle_folder, "",
           "folder with vehicle.toml, sensors.toml, fcu.toml, autopilot.toml");
     visit("field", self.field, "", "picture of the place");
-    visit("seed", self.seed, "1", "of every random stream");
+    visit("seed", self.seed, "1", "of every random stream", 0.0, 9.2233720368547e18);
     visit("duration", self.duration, "s", "when the run ends at the latest", 0.1, 86400.0);
     visit("end_after", self.end_after, "", "the event that ends the run earlier");
     visit("end_delay", self.end_delay, "s", "how long after it", 0.0, 86400.0);

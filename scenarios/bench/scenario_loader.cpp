@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <sstream>
+#include <system_error>
 
 #include "scenarios/bench/autopilot_loader.hpp"
+#include "scenarios/bench/fcu_loader.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/config/digest.hpp"
 #include "scenarios/config/include.hpp"
@@ -13,6 +15,7 @@ namespace ironbird::scenarios {
 
 namespace {
 
+/// The first one makes a folder a vehicle.
 constexpr const char* kVehicleFiles[] = {"vehicle.toml", "sensors.toml", "fcu.toml", "autopilot.toml"};
 
 /// The path as a reader would write it: from the working folder when it lies below it.
@@ -21,76 +24,102 @@ std::filesystem::path readable(const std::filesystem::path& path) {
   return relative.empty() || *relative.begin() == ".." ? path : relative;
 }
 
-std::string vehicle_folder(const toml::table& scenario, const Overrides& overrides) {
+bool is_there(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+/// The vehicle's folder as the scenario or the command line names it.
+struct VehicleFolder {
+  std::string name;
+  std::string place;  ///< that says so; empty for the default
+};
+
+VehicleFolder vehicle_folder(const toml::table& scenario, const Overrides& overrides) {
+  VehicleFolder folder{Scenario{}.vehicle_folder, ""};
   const toml::node* node = scenario.get("vehicle");
-  if (node != nullptr && !node->is_string() && !node->is_table()) {
-    throw ConfigError(location(node->source()) +
-                      ": vehicle: must be the name of a folder, such as \"models/x650\"");
+  if (node != nullptr && !node->is_table()) {
+    folder.place = place_of(*node);
+    if (!node->is_string()) {
+      throw ConfigError(
+          folder.place +
+          ": vehicle: must be the name of a folder, such as vehicle = \"models/x650\", or a table "
+          "of values that differ from those of that folder, written [vehicle]");
+    }
+    folder.name = node->as_string()->get();
   }
-  std::string folder = scenario["vehicle"].value_or(Scenario{}.vehicle_folder);
   for (const auto& [path, text] : overrides.settings) {
-    if (path == "vehicle") folder = text;
+    if (path == "vehicle") folder = {text, "--set vehicle=" + text};
   }
   return folder;
 }
 
+/// The folders that hold a vehicle, as a scenario names them.
+std::string vehicles_in(const std::filesystem::path& root) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (std::filesystem::directory_iterator at(root / "models", error), end; !error && at != end;
+       at.increment(error)) {
+    if (is_there(at->path() / kVehicleFiles[0])) names.push_back("models/" + at->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());  // a folder has no order of its own
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 /// The vehicle's files, those that are there, merged.
-toml::table load_vehicle(const std::filesystem::path& root, const std::string& folder,
-                         const toml::table& scenario) {
-  const std::filesystem::path place = root / folder;
-  if (!std::filesystem::exists(place / "vehicle.toml")) {
-    const toml::node* node = scenario.get("vehicle");
-    const std::string where = node != nullptr ? location(node->source()) + ": " : std::string();
-    throw ConfigError(where + "vehicle = \"" + folder + "\": " + readable(place / "vehicle.toml").string() +
-                      " is not there; a vehicle is a folder like models/x650");
+toml::table load_vehicle(const std::filesystem::path& root, const VehicleFolder& folder) {
+  const std::filesystem::path place = root / folder.name;
+  if (!is_there(place / kVehicleFiles[0])) {
+    throw ConfigError(folder.place + (folder.place.empty() ? "" : ": ") + "vehicle = \"" + folder.name +
+                      "\": there is no " + readable(place / kVehicleFiles[0]).string() +
+                      "; a vehicle is a folder with such a file; there are: " + vehicles_in(root));
   }
   toml::table merged;
   for (const char* name : kVehicleFiles) {
-    if (std::filesystem::exists(place / name)) merge_toml(merged, load_toml(readable(place / name), root));
+    if (is_there(place / name)) merge_toml(merged, load_toml(readable(place / name), root));
   }
   return merged;
 }
 
-/// `[fcu.parameters] NAME = value` as the list that the virtual FCU takes.
-void move_fcu_parameters(toml::table& root) {
-  toml::table* fcu = root["fcu"].as_table();
-  toml::table* parameters = fcu == nullptr ? nullptr : (*fcu)["parameters"].as_table();
-  if (parameters == nullptr) return;
-  toml::array list;
-  for (auto& [name, value] : *parameters) {
-    toml::table entry;
-    entry.insert("name", std::string(name.str()));
-    entry.insert("value", std::move(value));
-    list.push_back(std::move(entry));
+void apply_overrides(toml::table& root, const Overrides& overrides) {
+  for (const auto& [path, text] : overrides.settings) {
+    if (path == "vehicle") continue;  // was needed before the vehicle's files could be read
+    if (path == "include" || path.starts_with("include[")) {
+      throw ConfigError(
+          "--set " + path + "=" + text +
+          ": only a file can include others; write one that includes both, or set single values");
+    }
+    set_value(root, path, text);
   }
-  fcu->insert_or_assign("parameters", std::move(list));
+  if (overrides.seed) set_value(root, "seed", std::to_string(*overrides.seed));
 }
 
-void note_places(const toml::table& table, const std::string& prefix, LoadedScenario& loaded) {
-  for (const auto& [key, node] : table) {
-    const std::string path = prefix.empty() ? std::string(key.str()) : prefix + "." + std::string(key.str());
-    loaded.places.emplace_back(path, location(node.source()));
-    if (const toml::table* inner = node.as_table()) note_places(*inner, path, loaded);
-    if (const toml::array* array = node.as_array()) {
-      for (std::size_t i = 0; i < array->size(); ++i) {
-        if (const toml::table* element = array->get(i)->as_table()) {
-          note_places(*element, path + "[" + std::to_string(i) + "]", loaded);
-        }
-      }
-    }
+/// Notes where `node`, which has this path, and everything below it come from.
+void note_places(const toml::node& node, const std::string& path, LoadedScenario& loaded) {
+  if (!path.empty()) loaded.places.emplace(path, place_of(node));
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, inner] : *table)
+      note_places(inner, (path.empty() ? "" : path + ".") + std::string(key.str()), loaded);
+  } else if (const toml::array* array = node.as_array()) {
+    for (std::size_t i = 0; i < array->size(); ++i)
+      note_places(*array->get(i), path + "[" + std::to_string(i) + "]", loaded);
   }
 }
 
 /// `vehicle` names the folder in a scenario and is a table in the folder's files: here it is the table. It is
 /// taken out of `root`, not copied, because a copy of a node forgets its place in the file.
-void read_scenario(toml::table& root, LoadedScenario& loaded) {
-  Scenario& scenario = loaded.scenario;
+std::vector<std::string> read_scenario(toml::table& root, Scenario& scenario) {
+  std::vector<std::string> findings;
+  take_fcu_parameters(root, scenario.fcu, findings);
   TomlReader reader;
-  if (const toml::table* vehicle = root["vehicle"].as_table())
-    reader.read(*vehicle, scenario.vehicle, "vehicle");
+  if (const toml::node* vehicle = root.get("vehicle"))
+    reader.read_value(*vehicle, scenario.vehicle, {}, "vehicle");
   root.erase("vehicle");
-  reader.read(root, scenario, "", {"autopilot", "include"});
-  reader.finish();
+  reader.read(root, scenario, "", {"autopilot"});
+  findings.insert(findings.end(), reader.findings().begin(), reader.findings().end());
+  return findings;
 }
 
 }  // namespace
@@ -102,32 +131,34 @@ const ModuleSettings* LoadedScenario::settings_of(const std::string& slot, const
 }
 
 std::string LoadedScenario::own_place(const std::string& path, const std::string& place) const {
-  const std::string own = file.string() + ":";
-  if (place.starts_with(own)) return place;
-  const auto inside = std::find_if(places.begin(), places.end(), [&](const auto& p) {
-    return p.first.starts_with(path + ".") && p.second.starts_with(own);
-  });
-  return inside == places.end() ? place : inside->second;
+  const auto is_own = [&](const std::string& p) {
+    return p.starts_with(file.string() + ":") || p.starts_with("--set ");
+  };
+  if (is_own(place)) return place;
+  for (auto at = places.lower_bound(path + "."); at != places.end() && at->first.starts_with(path + ".");
+       ++at) {
+    if (is_own(at->second)) return at->second;
+  }
+  return place;
 }
 
-ConfigError LoadedScenario::located(const std::invalid_argument& error) const {
-  const std::string text = error.what();
-  std::string path = text.substr(0, text.find_first_of(" :="));
+std::string LoadedScenario::located(const std::string& finding) const {
+  std::string path = finding.substr(0, finding.find_first_of(" :="));
   while (!path.empty()) {
-    const auto found =
-        std::find_if(places.begin(), places.end(), [&](const auto& p) { return p.first == path; });
-    if (found != places.end()) return ConfigError(own_place(path, found->second) + ": " + text);
+    const auto found = places.find(path);
+    if (found != places.end()) return own_place(path, found->second) + ": " + finding;
     const std::size_t cut = path.find_last_of(".[");
     path = cut == std::string::npos ? std::string() : path.substr(0, cut);
   }
-  return ConfigError(readable(file).string() + ": " + text);
+  return readable(file).string() + ":1:1: " + finding;  // about something that is nowhere
 }
 
 std::filesystem::path find_project_root(const std::filesystem::path& file) {
+  std::error_code ignored;
   for (const std::filesystem::path& start :
        {std::filesystem::absolute(file).parent_path(), std::filesystem::current_path()}) {
     for (std::filesystem::path folder = start;; folder = folder.parent_path()) {
-      if (std::filesystem::is_directory(folder / "models")) return folder;
+      if (std::filesystem::is_directory(folder / "models", ignored)) return folder;
       if (folder == folder.root_path()) break;
     }
   }
@@ -141,25 +172,25 @@ LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides&
   loaded.name = file.stem().string();
   loaded.project_root = find_project_root(file);
   toml::table scenario = load_toml(file, loaded.project_root);
-  const std::string folder = vehicle_folder(scenario, overrides);
-  toml::table root = load_vehicle(loaded.project_root, folder, scenario);
+  const VehicleFolder folder = vehicle_folder(scenario, overrides);
+  toml::table root = load_vehicle(loaded.project_root, folder);
   // `vehicle` may be the folder's name, or a table of values that win over those of the default folder.
   if (!scenario["vehicle"].is_table()) scenario.erase("vehicle");
   merge_toml(root, std::move(scenario));
-  for (const auto& [path, text] : overrides.settings) {
-    if (path != "vehicle") set_value(root, path, text);
-  }
-  if (overrides.seed) root.insert_or_assign("seed", static_cast<std::int64_t>(*overrides.seed));
+  apply_overrides(root, overrides);
   note_places(root, "", loaded);
+  if (!folder.place.empty()) loaded.places.insert_or_assign("vehicle", folder.place);
   std::ostringstream effective;
-  effective << "vehicle_folder = \"" << folder << "\"\n" << root;
+  effective << "vehicle_folder = \"" << folder.name << "\"\n" << root;
   loaded.effective_config = effective.str();
   loaded.digest = digest(loaded.effective_config);
-  move_fcu_parameters(root);
-  loaded.scenario.vehicle_folder = folder;
-  read_scenario(root, loaded);
-  check_rules(loaded);
-  load_autopilot(root, modules, loaded);
+  loaded.scenario.vehicle_folder = folder.name;
+  std::vector<std::string> findings = read_scenario(root, loaded.scenario);
+  // A rule would only repeat what is wrong with a value that could not be read.
+  if (findings.empty()) findings = rule_findings(loaded);
+  const std::vector<std::string> more = load_autopilot(root, modules, loaded);
+  findings.insert(findings.end(), more.begin(), more.end());
+  if (!findings.empty()) throw ConfigError(findings);
   return loaded;
 }
 

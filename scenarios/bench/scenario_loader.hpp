@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -35,19 +37,23 @@ struct LoadedScenario {
   Scenario scenario;
   autopilot::AutopilotConfig autopilot;
   std::vector<ModuleSettings> modules;
-  std::string effective_config;  ///< the whole configuration as TOML
-  std::string digest;            ///< SHA-256 of it
-  std::vector<std::pair<std::string, std::string>>
-      places;  ///< where each table was read: path, file:line:column
+  std::string effective_config;                            ///< the whole configuration as TOML
+  std::string digest;                                      ///< SHA-256 of it
+  std::map<std::string, std::string, std::less<>> places;  ///< path of each value to file:line:column
 
   /// The settings for a module of this kind in this slot.
   const ModuleSettings* settings_of(const std::string& slot, const std::string& kind) const;
 
-  /// The error with the place in the files that it is about, as far as its first words are a path of the
-  /// configuration.
-  ConfigError located(const std::invalid_argument& error) const;
+  /// Do the files, or the command line, give this path a value? For example `event[2].lasts`.
+  bool gives(const std::string& path) const { return places.contains(path); }
 
-  /// Of a table that was read at `place`: where the scenario itself changes a value in it, when it does.
+  /// A finding with the place in the files that it is about in front, as far as its first words are a path of
+  /// the configuration; else with the beginning of the scenario's file.
+  std::string located(const std::string& finding) const;
+  ConfigError located(const std::invalid_argument& error) const { return ConfigError(located(error.what())); }
+
+  /// Of a table or value that was read at `place`: where the scenario itself changes a value in it, when it
+  /// does.
   std::string own_place(const std::string& path, const std::string& place) const;
 };
 
@@ -55,7 +61,7 @@ struct LoadedScenario {
 std::filesystem::path find_project_root(const std::filesystem::path& file);
 
 /// Reads a scenario, its includes and its vehicle's files, and checks everything that can be checked without
-/// flying.
+/// making the objects of a run.
 /// @param modules  the kinds that `[autopilot]` can name
 /// @throws ConfigError with one line for each finding
 LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides& overrides,

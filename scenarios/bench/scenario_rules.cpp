@@ -4,11 +4,15 @@
 #include <cctype>
 #include <cmath>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <vector>
 
+#include "autopilot/math/local_map.hpp"
+#include "scenarios/bench/check_rules.hpp"
+#include "scenarios/bench/event_names.hpp"
+#include "scenarios/bench/event_rules.hpp"
 #include "scenarios/config/nearest_name.hpp"
-#include "simulator/fault/fault_state.hpp"
 
 namespace ironbird::scenarios {
 
@@ -22,51 +26,107 @@ std::string name_of_value(Enum value) {
   return "?";
 }
 
-int deeds_of(const EventConfig& event) {
-  return static_cast<int>(event.fault.has_value()) + static_cast<int>(event.pilot.has_value()) +
-         static_cast<int>(event.request.has_value()) + static_cast<int>(event.add_waypoint.has_value()) +
-         static_cast<int>(event.remove_waypoint.has_value()) + static_cast<int>(event.setpoint.has_value()) +
-         static_cast<int>(!event.swap.empty()) + static_cast<int>(!event.set.empty());
-}
+/// More of anything was hardly meant, and would take minutes to hold against each other.
+constexpr std::size_t kMostTables = 1000;
 
 class Rules {
  public:
   explicit Rules(const LoadedScenario& loaded) : loaded_(loaded) {}
 
   std::vector<std::string> findings() {
+    check_counts();
+    if (!findings_.empty()) return findings_;
     check_field();
+    check_start();
     check_waypoints();
-    check_events();
     check_cameras();
     check_snapshots();
-    check_faults();
+    report_all(event_findings(loaded_));
+    report_all(check_findings(loaded_));
     return findings_;
   }
 
  private:
+  void check_counts() {
+    const Scenario& scenario = loaded_.scenario;
+    const std::pair<const char*, std::size_t> counts[] = {{"event", scenario.events.size()},
+                                                          {"check", scenario.checks.size()},
+                                                          {"camera", scenario.cameras.size()},
+                                                          {"cut", scenario.cuts.size()},
+                                                          {"snapshot", scenario.snapshots.size()}};
+    for (const auto& [name, count] : counts) {
+      if (count > kMostTables)
+        report(std::string(name) + ": there are " + std::to_string(count) + ", must be at most " +
+               std::to_string(kMostTables));
+    }
+    const std::size_t longest = longest_route(scenario);
+    if (longest > autopilot::kMostWaypoints) {
+      report("waypoint: the route would have " + std::to_string(longest) + " waypoints, must have at most " +
+             std::to_string(autopilot::kMostWaypoints));
+    }
+  }
+
   void check_field() {
     const std::filesystem::path field = loaded_.project_root / loaded_.scenario.field;
-    if (!loaded_.scenario.field.empty() && !std::filesystem::exists(field)) {
+    std::error_code ignored;
+    if (!loaded_.scenario.field.empty() && !std::filesystem::is_regular_file(field, ignored)) {
       report("field = \"" + loaded_.scenario.field +
-             "\": there is no such file; fields are in models/fields");
+             "\": there is no such file; fields are XML files in models/fields");
     }
+  }
+
+  void check_start() {
+    const StartConfig& start = loaded_.scenario.start;
+    if (!start.on_ground && start.p_N[2] > 0.0) report("start.p_N[2]: lies below the ground, must be <= 0 m");
   }
 
   void check_waypoints() {
     const auto& waypoints = loaded_.scenario.waypoints;
-    for (std::size_t i = 0; i < waypoints.size(); ++i) {
-      const std::string path = "waypoint[" + std::to_string(i) + "]";
-      if (!waypoints[i].p_N.allFinite()) report(path + ".p_N: every number must be finite");
-      if (!std::isfinite(waypoints[i].heading)) report(path + ".heading: must be finite");
+    const auto& events = loaded_.scenario.events;
+    for (std::size_t i = 0; i < waypoints.size(); ++i)
+      check_waypoint("waypoint[" + std::to_string(i) + "]", waypoints[i]);
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      if (events[i].add_waypoint)
+        check_waypoint("event[" + std::to_string(i) + "].add_waypoint", *events[i].add_waypoint);
     }
     if (waypoints.empty() && loaded_.scenario.pilot.automatic && !events_fly()) {
       report(
           "waypoint: there is none, and no event flies anything; add a [[waypoint]], or an [[event]] with "
           "add_waypoint, setpoint, request or pilot");
     }
-    if (loaded_.scenario.cyclic && waypoints.size() < 2) {
+    if (loaded_.scenario.cyclic && longest_route(loaded_.scenario) < 2) {
       report("cyclic = true: a round needs at least two waypoints, found " +
              std::to_string(waypoints.size()));
+    }
+  }
+
+  void check_waypoint(const std::string& path, const autopilot::Waypoint& waypoint) {
+    const bool local = loaded_.gives(path + ".p_N");
+    if (local == waypoint.geodetic.has_value()) {
+      report(path + ": needs either p_N or geodetic, has " + (local ? "both" : "neither"));
+    } else if (waypoint.geodetic) {
+      check_geodetic(path + ".geodetic", *waypoint.geodetic);
+    } else if (waypoint.p_N.z() > 0.0) {
+      report(path + ".p_N[2]: lies below the ground; down is positive, must be <= 0 m");
+    }
+    if (loaded_.gives(path + ".id")) report(path + ".id: is given by the planner, leave it away");
+  }
+
+  void check_geodetic(const std::string& path, const autopilot::GeodeticPosition& place) {
+    for (const char* key : {"latitude", "longitude", "altitude"}) {
+      if (!loaded_.gives(path + "." + key)) return report(path + ": needs the key `" + key + "`");
+    }
+    const simulator::HomeParams& home = loaded_.scenario.environment.home;
+    const autopilot::Vector3 p_N =
+        autopilot::local_from_geodetic(place, {true, home.latitude, home.longitude, home.altitude});
+    const double distance = std::max(std::abs(p_N.x()), std::abs(p_N.y()));
+    const auto whole = [](double number) { return std::to_string(std::llround(number)); };
+    if (distance > autopilot::kFarthestWaypoint) {
+      report(path + ": lies " + whole(distance / 1e3) + " km from environment.home, must be within " +
+             whole(autopilot::kFarthestWaypoint / 1e3) + " km");
+    } else if (p_N.z() > 0.0) {
+      report(path + ".altitude: lies below the ground, must be >= " + whole(home.altitude) +
+             " m, the altitude of environment.home");
     }
   }
 
@@ -75,30 +135,6 @@ class Rules {
     return std::any_of(events.begin(), events.end(), [](const EventConfig& event) {
       return event.add_waypoint || event.setpoint || event.request || event.pilot;
     });
-  }
-
-  void check_events() {
-    const auto& events = loaded_.scenario.events;
-    for (std::size_t i = 0; i < events.size(); ++i) {
-      const std::string path = "event[" + std::to_string(i) + "]";
-      const EventConfig& event = events[i];
-      if (deeds_of(event) != 1) {
-        report(path + ": does " + std::to_string(deeds_of(event)) +
-               " things, must do exactly one of fault, pilot, request, add_waypoint, remove_waypoint, "
-               "setpoint, swap, set");
-      }
-      if (!event.swap.empty() && event.kind.empty())
-        report(path + ".swap: needs the kind of the new module in `kind`");
-      if (event.setpoint) check_setpoint(path, *event.setpoint);
-    }
-  }
-
-  void check_setpoint(const std::string& path, const SetpointConfig& setpoint) {
-    try {
-      only_setpoint(setpoint);
-    } catch (const std::invalid_argument& error) {
-      report(path + ".setpoint: " + error.what());
-    }
   }
 
   void check_cameras() {
@@ -135,22 +171,11 @@ class Rules {
     }
   }
 
-  void check_faults() {
-    const int rotors = static_cast<int>(loaded_.scenario.vehicle.rotors.size());
-    const auto& events = loaded_.scenario.events;
-    for (std::size_t i = 0; i < events.size(); ++i) {
-      if (!events[i].fault) continue;
-      try {
-        simulator::check(fault_of(events[i]), rotors);
-      } catch (const std::invalid_argument& error) {
-        report("event[" + std::to_string(i) + "]: " + error.what());
-      }
-    }
+  void report_all(const std::vector<std::string>& findings) {
+    for (const std::string& finding : findings) report(finding);
   }
 
-  void report(const std::string& finding) {
-    findings_.push_back(loaded_.located(std::invalid_argument(finding)).what());
-  }
+  void report(const std::string& finding) { findings_.push_back(loaded_.located(finding)); }
 
   const LoadedScenario& loaded_;
   std::vector<std::string> findings_;
@@ -158,9 +183,8 @@ class Rules {
 
 }  // namespace
 
-void check_rules(const LoadedScenario& loaded) {
-  std::vector<std::string> findings = Rules(loaded).findings();
-  if (!findings.empty()) throw ConfigError(std::move(findings));
+std::vector<std::string> rule_findings(const LoadedScenario& loaded) {
+  return Rules(loaded).findings();
 }
 
 autopilot::ControlSetpoint only_setpoint(const SetpointConfig& config) {
@@ -176,7 +200,10 @@ autopilot::ControlSetpoint only_setpoint(const SetpointConfig& config) {
 }
 
 simulator::Fault fault_of(const EventConfig& event) {
-  return {*event.fault, event.index, event.magnitude, {event.vector[0], event.vector[1], event.vector[2]}};
+  return {*event.fault,
+          event.index.value_or(0),
+          event.magnitude,
+          {event.vector[0], event.vector[1], event.vector[2]}};
 }
 
 std::string picture_event(const std::string& snapshot) {

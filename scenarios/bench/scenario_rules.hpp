@@ -4,10 +4,10 @@
 
 namespace ironbird::scenarios {
 
-/// What a scenario must obey beyond the types and bounds of its single values: each event does exactly one
-/// thing, names of cameras and of faults' rotors exist, there is something to fly, the field is there.
-/// @throws ConfigError with one line for each finding
-void check_rules(const LoadedScenario& loaded);
+/// What a scenario must obey beyond the types and bounds of its single values: there is something to fly and
+/// it lies above the ground, names of cameras exist, the field is there, events and checks make sense.
+/// @return what is wrong, one line each, with its place
+std::vector<std::string> rule_findings(const LoadedScenario& loaded);
 
 /// The one setpoint that the table gives. @throws std::invalid_argument when there is none or more than one
 autopilot::ControlSetpoint only_setpoint(const SetpointConfig& config);

@@ -1,7 +1,6 @@
 #include "scenarios/bench/script.hpp"
 
 #include <algorithm>
-#include <set>
 
 namespace ironbird::scenarios {
 
@@ -40,12 +39,12 @@ void Script::find_earliest() {
   }
 }
 
-std::vector<std::string> Script::still_waited_for() const {
-  std::set<std::string> names;
-  for (const Item& item : items_) {
-    if (!item.due) names.insert(item.after);
+std::vector<Script::Left> Script::left() const {
+  std::vector<Left> left;
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    if (!items_[i].given_out) left.push_back({i, items_[i].after, items_[i].due});
   }
-  return {names.begin(), names.end()};
+  return left;
 }
 
 }  // namespace ironbird::scenarios

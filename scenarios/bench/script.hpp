@@ -29,8 +29,15 @@ class Script {
   /// The next item that is due at `now` and was not given out before, or nothing.
   std::optional<std::size_t> next_due(Time now);
 
-  /// Names of the events that items still wait for, sorted, each once.
-  std::vector<std::string> still_waited_for() const;
+  /// An item that was never given out.
+  struct Left {
+    std::size_t item = 0;
+    std::string after;        ///< the event that it waits for
+    std::optional<Time> due;  ///< when it would have been due; none: the event has not happened
+  };
+
+  /// What is left, in the order in which it was added.
+  std::vector<Left> left() const;
 
  private:
   struct Item {

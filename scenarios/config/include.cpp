@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <sstream>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "scenarios/config/config_error.hpp"
+#include "scenarios/config/text_file.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -15,16 +15,6 @@ namespace {
 using Path = std::filesystem::path;
 
 constexpr std::string_view kOption = "--set";
-
-std::string read_text(const Path& file, const std::string& asked_by) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (std::filesystem::is_regular_file(file) && stream) text << stream.rdbuf();
-  if (!std::filesystem::is_regular_file(file) || !stream) {
-    throw ConfigError(asked_by + file.string() + ": cannot be opened");
-  }
-  return text.str();
-}
 
 /// Puts a node into a table without losing where it came from, which copying would.
 void put(toml::table& table, std::string_view key, toml::node&& value) {
@@ -36,13 +26,15 @@ class Loader {
   explicit Loader(Path project_root) : project_root_(std::move(project_root)) {}
 
   toml::table load(const Path& file, const std::string& asked_by) {
-    const Path identity = std::filesystem::weakly_canonical(file);
+    const std::string text = read_config_text(file, asked_by);
+    std::error_code ignored;
+    const Path identity = std::filesystem::weakly_canonical(file, ignored);
     if (std::find(open_.begin(), open_.end(), identity) != open_.end()) {
       throw ConfigError(asked_by + "include = \"" + file.string() +
                         "\": the files include each other in a circle");
     }
     open_.push_back(identity);
-    toml::table own = parse_toml(read_text(file, asked_by), file.string());
+    toml::table own = parse_toml(text, file.string());
     toml::table result;
     for (const auto& [included, from] : take_includes(own, file))
       merge_toml(result, load(included, from + ": "));
@@ -59,12 +51,12 @@ class Loader {
     if (include == nullptr) return result;
     const toml::array* list = include->as_array();
     if (list == nullptr) {
-      throw ConfigError(location(include->source()) + ": include: must be an array of paths");
+      throw ConfigError(place_of(*include) + ": include: must be an array of paths");
     }
     for (const toml::node& element : *list) {
       const auto text = element.value<std::string>();
-      if (!text) throw ConfigError(location(element.source()) + ": include: must be an array of paths");
-      result.emplace_back(find(*text, file), location(element.source()));
+      if (!text) throw ConfigError(place_of(element) + ": include: must be an array of paths");
+      result.emplace_back(find(*text, file), place_of(element));
     }
     own.erase("include");
     return result;
@@ -72,18 +64,23 @@ class Loader {
 
   Path find(const std::string& name, const Path& from) const {
     const Path beside = (from.parent_path() / name).lexically_normal();
-    if (std::filesystem::exists(beside)) return beside;
+    std::error_code ignored;
+    if (std::filesystem::exists(beside, ignored)) return beside;
     const Path below_root = (project_root_ / name).lexically_normal();
-    return std::filesystem::exists(below_root) ? below_root : beside;
+    return std::filesystem::exists(below_root, ignored) ? below_root : beside;
   }
 
   Path project_root_;
   std::vector<Path> open_;
 };
 
-/// The value that a command line means by `text`.
-toml::table parse_option(std::string_view path, std::string_view text) {
-  const std::string name = std::string(kOption) + " " + std::string(path);
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kMost = 60;
+  return text.size() <= kMost ? std::string(text) : std::string(text.substr(0, kMost)) + "...";
+}
+
+/// The value that a command line means by `text`. @param name  of the option, for messages
+toml::table parse_option(std::string_view text, const std::string& name) {
   try {
     toml::table parsed = toml::parse("value = " + std::string(text), name);
     if (parsed.size() == 1) return parsed;
@@ -95,7 +92,7 @@ toml::table parse_option(std::string_view path, std::string_view text) {
     if (c == '"' || c == '\\') quoted += '\\';
     quoted += c == '\n' ? ' ' : c;
   }
-  return toml::parse("value = \"" + quoted + "\"", name);
+  return parse_toml("value = \"" + quoted + "\"", name);
 }
 
 struct Step {
@@ -105,7 +102,7 @@ struct Step {
 
 std::vector<Step> split_path(std::string_view path) {
   const ConfigError wrong(std::string(kOption) + " " + std::string(path) +
-                          ": is no path, such as plant.step");
+                          ": is no path, such as plant.engine or waypoint[0].heading");
   std::vector<Step> steps;
   while (!path.empty()) {
     if (path.front() == '[') {
@@ -139,12 +136,69 @@ toml::node* descend(toml::node& from, const Step& step) {
   return table->get(step.name);
 }
 
+/// How far the path leads, for the message that it leads nowhere.
+std::string what_is_there(toml::table& root, const std::vector<Step>& steps) {
+  const toml::node* at = &root;
+  std::string path;
+  for (const Step& step : steps) {
+    const toml::table* table = at->as_table();
+    const toml::array* array = at->as_array();
+    const std::string next =
+        step.name.empty() ? "[" + std::to_string(step.index) + "]" : (path.empty() ? "" : ".") + step.name;
+    const toml::node* inner = nullptr;
+    if (table != nullptr && !step.name.empty()) inner = table->get(step.name);
+    if (array != nullptr && step.name.empty()) inner = array->get(step.index);
+    if (inner == nullptr) {
+      if (array != nullptr)
+        return ": " + path + " has " + std::to_string(array->size()) + " elements, from [0]";
+      return table != nullptr ? ": " + path + " is a table" : ": " + path + " is a single value";
+    }
+    at = inner;
+    path += next;
+  }
+  return "";
+}
+
+[[noreturn]] void refuse_mixture(const std::string& path, const toml::node& below, const toml::node& above) {
+  const auto form = [&](const toml::node& node) {
+    return node.is_table() ? "a table, [" + path + "]," : node.is_array() ? "an array" : "a value";
+  };
+  throw ConfigError(place_of(above) + ": " + path + ": is " + form(above) + " here and " + form(below) +
+                    " in " + place_of(below) + "; write it as there");
+}
+
+void merge_below(toml::table& under, toml::table&& over, const std::string& prefix) {
+  for (auto&& [key, value] : over) {
+    const std::string path = prefix + std::string(key.str());
+    toml::node* below = under.get(key.str());
+    if (below != nullptr && below->is_table() != value.is_table()) refuse_mixture(path, *below, value);
+    if (below != nullptr && below->is_table()) {
+      merge_below(*below->as_table(), std::move(*value.as_table()), path + ".");
+    } else {
+      under.erase(key.str());
+      std::move(value).visit(
+          [&, name = toml::key(key)](auto&& node) { under.insert(name, std::move(node)); });
+    }
+  }
+}
+
 }  // namespace
 
 std::string location(const toml::source_region& source) {
-  const std::string file = source.path ? *source.path : std::string("?");
-  if (file.starts_with(kOption)) return std::string(kOption);
-  return file + ":" + std::to_string(source.begin.line) + ":" + std::to_string(source.begin.column);
+  if (!source.path) return "";
+  if (source.path->starts_with(kOption)) return *source.path;
+  return *source.path + ":" + std::to_string(source.begin.line) + ":" + std::to_string(source.begin.column);
+}
+
+std::string place_of(const toml::node& node) {
+  const std::string own = location(node.source());
+  if (!own.empty()) return own;
+  // A table that an option made on the way to a value is where that value is.
+  std::string found;
+  if (const toml::table* table = node.as_table()) {
+    for (auto at = table->cbegin(); at != table->cend() && found.empty(); ++at) found = place_of(at->second);
+  }
+  return found;
 }
 
 toml::table parse_toml(std::string_view text, std::string_view name) {
@@ -156,16 +210,7 @@ toml::table parse_toml(std::string_view text, std::string_view name) {
 }
 
 void merge_toml(toml::table& under, toml::table&& over) {
-  for (auto&& [key, value] : over) {
-    toml::node* below = under.get(key.str());
-    if (below != nullptr && below->is_table() && value.is_table()) {
-      merge_toml(*below->as_table(), std::move(*value.as_table()));
-    } else {
-      under.erase(key.str());
-      std::move(value).visit(
-          [&, name = toml::key(key)](auto&& node) { under.insert(name, std::move(node)); });
-    }
-  }
+  merge_below(under, std::move(over), "");
 }
 
 toml::table load_toml(const std::filesystem::path& file, const std::filesystem::path& project_root) {
@@ -174,7 +219,8 @@ toml::table load_toml(const std::filesystem::path& file, const std::filesystem::
 
 void set_value(toml::table& root, std::string_view path, std::string_view text) {
   const std::vector<Step> steps = split_path(path);
-  toml::table parsed = parse_option(path, text);
+  const std::string name = std::string(kOption) + " " + std::string(path) + "=" + shortened(text);
+  toml::table parsed = parse_option(text, name);
   toml::node& value = *parsed.get("value");
   toml::node* at = &root;
   for (std::size_t i = 0; i + 1 < steps.size() && at != nullptr; ++i) at = descend(*at, steps[i]);
@@ -183,7 +229,7 @@ void set_value(toml::table& root, std::string_view path, std::string_view text) 
     return put(*at->as_table(), last.name, std::move(value));
   toml::array* array = at == nullptr || !last.name.empty() ? nullptr : at->as_array();
   if (array == nullptr || last.index >= array->size()) {
-    throw ConfigError(std::string(kOption) + " " + std::string(path) + ": there is no such place");
+    throw ConfigError(name + ": there is no such place" + what_is_there(root, steps));
   }
   std::move(value).visit([&](auto&& node) {
     array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(last.index), std::move(node));

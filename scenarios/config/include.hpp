@@ -21,6 +21,7 @@ toml::table load_toml(const std::filesystem::path& file, const std::filesystem::
 toml::table parse_toml(std::string_view text, std::string_view name);
 
 /// Lays `over` on `under`: values of `over` win, tables merge, arrays replace.
+/// @throws ConfigError when one has a table where the other has none: neither could win without a loss
 void merge_toml(toml::table& under, toml::table&& over);
 
 /// Sets one value of a table, as `--set path=text` asks. Steps of the path are names divided by dots; an
@@ -29,7 +30,12 @@ void merge_toml(toml::table& under, toml::table&& over);
 /// @throws ConfigError when the path leads through something that is no table, or to no element
 void set_value(toml::table& root, std::string_view path, std::string_view text);
 
-/// `file:line:column` of a node or key, or just the name for a text that was no file.
+/// `file:line:column` of a node or key; `--set path=text` for what the command line gave; empty for what has
+/// no place.
 std::string location(const toml::source_region& source);
+
+/// The same for a node. A table without a place, such as one that set_value() has made, is where its first
+/// member is.
+std::string place_of(const toml::node& node);
 
 }  // namespace ironbird::scenarios

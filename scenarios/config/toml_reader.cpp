@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <numbers>
 #include <sstream>
 
 #include "scenarios/config/nearest_name.hpp"
@@ -24,14 +25,31 @@ std::string shortest(double value) {
 std::string shown(const toml::node& node) {
   constexpr std::size_t kMost = 60;
   std::ostringstream stream;
-  node.visit([&](const auto& value) { stream << value; });
+  if (const toml::table* table = node.as_table()) {
+    toml::table inlined = *table;
+    inlined.is_inline(true);
+    stream << inlined;
+  } else {
+    node.visit([&](const auto& value) { stream << value; });
+  }
   std::string text = stream.str();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+  if (text.size() <= kMost) return text;
+  std::size_t cut = kMost;
+  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80) --cut;  // not inside a character
+  return text.substr(0, cut) + "...";
 }
 
 std::string with_unit(const std::string& text, std::string_view unit) {
   return unit.empty() || unit == "1" || unit == "SI" ? text : text + " " + std::string(unit);
+}
+
+/// The bounds of an angle again, as people know them.
+std::string in_degrees(const Allowed& allowed) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  if (allowed.unit != "rad") return "";
+  const auto degrees = [](double angle) { return shortest(std::round(angle * kDegrees * 1e6) / 1e6); };
+  return " (" + degrees(allowed.lower) + " and " + degrees(allowed.upper) + " deg)";
 }
 
 /// What is wrong with a number, or nothing.
@@ -41,7 +59,18 @@ std::string complaint(double value, const Allowed& allowed) {
   if (allowed.upper == kUnbounded) return with_unit("must be >= " + shortest(allowed.lower), allowed.unit);
   if (allowed.lower == -kUnbounded) return with_unit("must be <= " + shortest(allowed.upper), allowed.unit);
   return with_unit("must be between " + shortest(allowed.lower) + " and " + shortest(allowed.upper),
-                   allowed.unit);
+                   allowed.unit) +
+         in_degrees(allowed);
+}
+
+/// `[a.b]` for a table, `[[a.b]]` for an element of an array of tables; nothing inside such an element, which
+/// has no header of its own that could be shown.
+std::string header_of(const std::string& path) {
+  const std::size_t bracket = path.find('[');
+  if (bracket == std::string::npos) return ", written [" + path + "]";
+  return path.find_first_of("[.", bracket + 1) == std::string::npos && path.back() == ']'
+             ? ", written [[" + path.substr(0, bracket) + "]]"
+             : ", written { key = value }";
 }
 
 }  // namespace
@@ -51,7 +80,18 @@ void TomlReader::finish() const {
 }
 
 void TomlReader::report(const toml::node& node, const std::string& path, const std::string& what) {
-  findings_.push_back(location(node.source()) + ": " + path + " = " + shown(node) + ": " + what);
+  findings_.push_back(place_of(node) + ": " + path + " = " + shown(node) + ": " + what);
+}
+
+void TomlReader::report_no_table(const toml::node& node, const std::string& path) {
+  report(node, path, "must be a table" + header_of(path));
+}
+
+void TomlReader::report_no_tables(const toml::node& node, const std::string& path) {
+  const std::string header = "[[" + path + "]]";
+  report(node, path,
+         node.is_table() ? "must be an array of tables: write " + header + " instead of [" + path + "]"
+                         : "must be an array of tables, each written " + header);
 }
 
 void TomlReader::report_unknown(const toml::table& table, const std::string& path,
@@ -67,8 +107,8 @@ void TomlReader::report_unknown(const toml::table& table, const std::string& pat
       for (const std::string& name : known) what += (&name == &known.front() ? "" : ", ") + name;
     }
     const std::string full = (path.empty() ? "" : path + ".") + std::string(key.str());
-    const toml::source_region& source = key.source().path ? key.source() : node.source();
-    findings_.push_back(location(source) + ": " + full + " = " + shown(node) + ": " + what);
+    const std::string place = key.source().path ? location(key.source()) : place_of(node);
+    findings_.push_back(place + ": " + full + " = " + shown(node) + ": " + what);
   }
 }
 
@@ -94,7 +134,9 @@ void TomlReader::read_number(const toml::node& node, double& value, const Allowe
   } else if (node.is_number()) {
     number = *node.value<double>();
   } else {
-    return report(node, path, with_unit("must be a number", allowed.unit));
+    const bool plain = allowed.unit.empty() || allowed.unit == "1";
+    return report(node, path,
+                  plain ? "must be a number" : "must be a number, in " + std::string(allowed.unit));
   }
   const std::string wrong = complaint(number, allowed);
   if (!wrong.empty()) return report(node, path, wrong);

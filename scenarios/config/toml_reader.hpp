@@ -96,6 +96,9 @@ class TomlReader {
   void report_unknown(const toml::table& table, const std::string& path,
                       const std::vector<std::string>& known);
   void report(const toml::node& node, const std::string& path, const std::string& what);
+  /// Says which form is right where a table, or an array of tables, was not found.
+  void report_no_table(const toml::node& node, const std::string& path);
+  void report_no_tables(const toml::node& node, const std::string& path);
 
   std::vector<std::string> findings_;
 };
@@ -148,7 +151,7 @@ void TomlReader::read_value(const toml::node& node, T& value, const Allowed& all
   } else {
     static_assert(Described<T>, "a member of this type cannot come from a configuration");
     if (const toml::table* table = node.as_table()) return read(*table, value, path);
-    report(node, path, "must be a table");
+    report_no_table(node, path);
   }
 }
 
@@ -206,6 +209,9 @@ void TomlReader::read_array(const toml::node& node, T& value, const Allowed& all
 template <class T>
 void TomlReader::read_vector(const toml::node& node, T& value, const Allowed& allowed,
                              const std::string& path) {
+  if constexpr (Described<typename T::value_type>) {
+    if (!node.is_array()) return report_no_tables(node, path);
+  }
   const toml::array* array = elements(node, 0, std::numeric_limits<std::size_t>::max(), path);
   if (array == nullptr) return;
   T result;

@@ -115,6 +115,8 @@ std::string verdict_section(const ReportRun& run) {
   if (judged && run.verdict()->outcome != Outcome::kPass) {
     std::string reasons;
     for (const std::string& reason : run.verdict()->reasons) reasons += element("li", "", escaped(reason));
+    for (const std::string& warning : run.verdict()->warnings)
+      reasons += element("li", "", "warning: " + escaped(warning));
     out += element("ul", "reasons", reasons);
   }
   out += identity(run) + "</div></section>";

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenarios/config/nearest_name.hpp"
 #include "scenarios/requirements/event_assertions.hpp"
 #include "scenarios/requirements/number_text.hpp"
 #include "scenarios/requirements/quantity_text.hpp"
@@ -35,12 +36,34 @@ std::array<std::pair<const char*, bool>, 14> kinds_in(const CheckConfig& c) {
            {"metric_above", c.metric_above.has_value()}}};
 }
 
+Signal find(const SignalTable& table, const std::string& path, const char* key) {
+  try {
+    return table.find(path);
+  } catch (const std::invalid_argument& wrong) {
+    throw std::invalid_argument(std::string(key) + " = \"" + path + "\": " + wrong.what());
+  }
+}
+
+Condition condition(const SignalTable& table, const std::string& text, const std::string& key) {
+  try {
+    return Condition::read(text, table);
+  } catch (const std::invalid_argument& wrong) {
+    throw std::invalid_argument(key + " = \"" + text + "\": " + wrong.what());
+  }
+}
+
 Subject subject_of(const CheckConfig& config, const SignalTable& table) {
   if (!config.error.empty() && !config.signal.empty())
-    throw std::invalid_argument("signal and error both given");
-  if (!config.signal.empty()) return Subject(table.find(config.signal));
+    throw std::invalid_argument("needs either signal or error, has both");
+  if (!config.signal.empty()) return Subject(find(table, config.signal, "signal"));
   if (config.error.size() != 2) throw std::invalid_argument("needs a signal, or an error of two signals");
-  return Subject(table.find(config.error[0]), table.find(config.error[1]));
+  const Signal first = find(table, config.error[0], "error[0]");
+  const Signal second = find(table, config.error[1], "error[1]");
+  try {
+    return {first, second};
+  } catch (const std::invalid_argument& wrong) {
+    throw std::invalid_argument(std::string("error: ") + wrong.what());
+  }
 }
 
 /// What the kinds about values share.
@@ -140,12 +163,23 @@ std::unique_ptr<Assertion> make_targeted(const std::string& kind, const Reader& 
   return std::make_unique<Reaches>(read.subject, read.wording(words), tolerance, by, read.target());
 }
 
+std::string nearest_metric(const std::string& wrong, const std::vector<Metric>& known) {
+  std::vector<std::string> names;
+  for (const Metric& metric : known) names.push_back(metric.name);
+  const std::string nearest = nearest_name(wrong, names);
+  if (!nearest.empty()) return "; did you mean '" + nearest + "'?";
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "; there are " : ", ") + name;
+  return all;
+}
+
 std::unique_ptr<Assertion> make_metric_bound(bool below, const CheckConfig& config) {
   const std::vector<Metric> known = RunMetrics::names_and_units();
   const auto metric = std::find_if(known.begin(), known.end(),
                                    [&](const Metric& candidate) { return candidate.name == config.metric; });
   if (metric == known.end())
-    throw std::invalid_argument("metric = \"" + config.metric + "\": there is no such metric");
+    throw std::invalid_argument("metric = \"" + config.metric + "\": there is no such metric" +
+                                nearest_metric(config.metric, known));
   if (metric->name == "real_time_factor") {
     throw std::invalid_argument("metric = \"real_time_factor\" depends on the machine, no verdict may");
   }
@@ -160,10 +194,10 @@ std::unique_ptr<Assertion> make_without_subject(const std::string& kind, const C
     throw std::invalid_argument(kind + " takes neither signal nor error");
   }
   if (kind == "happens") {
-    return std::make_unique<ConditionAssertion>(Condition::read(*config.happens, table), true);
+    return std::make_unique<ConditionAssertion>(condition(table, *config.happens, kind), true);
   }
   if (kind == "never_happens") {
-    return std::make_unique<ConditionAssertion>(Condition::read(*config.never_happens, table), false);
+    return std::make_unique<ConditionAssertion>(condition(table, *config.never_happens, kind), false);
   }
   if (kind == "order_of_events") {
     if (config.order_of_events->empty()) throw std::invalid_argument("order_of_events names no event");
@@ -189,7 +223,8 @@ void refuse_unused(const std::string& kind, const CheckConfig& config) {
                                                            {"tolerated_for", !config.tolerated_for.empty()},
                                                            {"metric", !config.metric.empty()}}};
   for (const auto& [key, is_given] : given) {
-    if (is_given && !takes(kind, key)) throw std::invalid_argument(kind + " does not take " + key);
+    if (is_given && !takes(kind, key))
+      throw std::invalid_argument(std::string(key) + ": " + kind + " does not take " + key);
   }
 }
 

@@ -10,13 +10,9 @@ namespace ironbird::scenarios {
 Check::Check(const CheckConfig& config, const CheckContext& context) : name_(config.name) {
   if (context.signals == nullptr) throw std::invalid_argument("checks need a table of signals");
   if (!(context.tick > 0.0)) throw std::invalid_argument("checks need a tick > 0 s");
-  try {
-    kind_ = kind_of(config);
-    window_ = Window(config.after, config.until);
-    assertion_ = make_assertion(kind_, config, context);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("check \"" + name_ + "\": " + error.what());
-  }
+  kind_ = kind_of(config);
+  window_ = Window(config.after, config.until);
+  assertion_ = make_assertion(kind_, config, context);
   if (name_.empty()) name_ = kind_ + " " + (config.signal.empty() ? config.metric : config.signal);
 }
 
@@ -31,6 +27,16 @@ CheckResult Check::result(const RunFacts& facts) const {
   }
   assertion_->judge(facts, result);
   return result;
+}
+
+std::string complaint_at(const std::string& path, const std::string& complaint) {
+  const std::string first = complaint.substr(0, complaint.find_first_of(" .:=["));
+  bool is_key = false;
+  const CheckConfig any;
+  CheckConfig::describe(any, [&](const char* name, const auto&, const char*, const char*) {
+    is_key = is_key || name == first;
+  });
+  return path + (is_key ? "." : ": ") + complaint;
 }
 
 }  // namespace ironbird::scenarios

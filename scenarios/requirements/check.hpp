@@ -64,8 +64,8 @@ class Assertion {
 /// One requirement, judged while the run goes on.
 class Check {
  public:
-  /// @throws std::invalid_argument naming the check and what does not fit: no kind or two, an unknown signal,
-  /// a bound in the wrong unit
+  /// @throws std::invalid_argument saying what does not fit: no kind or two, an unknown signal, a bound in
+  /// the wrong unit. It begins with the key that is wrong, when it is one: see complaint_at()
   Check(const CheckConfig& config, const CheckContext& context);
 
   /// To be called after every tick, in order of time.
@@ -81,5 +81,9 @@ class Check {
   Window window_;
   std::unique_ptr<Assertion> assertion_;
 };
+
+/// What a check's constructor has to say, with the path of the check in front: `check[1].signal = …` for what
+/// begins with a key, else `check[1]: …`.
+std::string complaint_at(const std::string& path, const std::string& complaint);
 
 }  // namespace ironbird::scenarios

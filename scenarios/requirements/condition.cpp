@@ -17,18 +17,17 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
 }
 
-double named_value(const std::string& word, const Signal& signal, const std::string& text) {
+double named_value(const std::string& word, const Signal& signal) {
   const SignalLeaf& leaf = signal.leaf();
   if (word == "true") return 1.0;
   if (word == "false") return 0.0;
-  if (leaf.names.empty()) return read_quantity(word, signal.unit(), text);
+  if (leaf.names.empty()) return read_quantity(word, signal.unit(), signal.path());
   std::string known;
   for (std::size_t i = 0; i < leaf.names.size(); ++i) {
     if (leaf.names[i] == word) return leaf.numbers[i];
     known += (i == 0 ? "" : ", ") + leaf.names[i];
   }
-  throw std::invalid_argument("condition \"" + text + "\": " + word + " is not a value of " + signal.path() +
-                              "; there are " + known);
+  throw std::invalid_argument(word + " is not a value of " + signal.path() + "; there are " + known);
 }
 
 }  // namespace
@@ -54,9 +53,9 @@ Condition Condition::read(const std::string& text, const SignalTable& table) {
   }
   condition.signal_ = table.find(left);
   if (condition.signal_.size() != 1) {
-    throw std::invalid_argument("condition \"" + text + "\": " + left + " is a vector, name a component");
+    throw std::invalid_argument(left + " is a vector, name a component");
   }
-  condition.value_ = named_value(right, condition.signal_, condition.text_);
+  condition.value_ = named_value(right, condition.signal_);
   const bool is_equality =
       condition.comparison_ == Comparison::kEqual || condition.comparison_ == Comparison::kDifferent;
   condition.unit_ = is_equality ? "1" : condition.signal_.unit();

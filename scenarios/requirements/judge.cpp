@@ -1,5 +1,6 @@
 #include "scenarios/requirements/judge.hpp"
 
+#include <stdexcept>
 #include <utility>
 
 namespace ironbird::scenarios {
@@ -17,7 +18,13 @@ Judge::Judge(const std::vector<CheckConfig>& checks, const SignalTable& signals,
     : metrics_(sources), detector_(*sources.autopilot) {
   const CheckContext context{&signals, &sources.autopilot->route, seconds_of(tick)};
   checks_.reserve(checks.size());
-  for (const CheckConfig& check : checks) checks_.emplace_back(check, context);
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    try {
+      checks_.emplace_back(checks[i], context);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(complaint_at("check[" + std::to_string(i) + "]", error.what()));
+    }
+  }
 }
 
 void Judge::event(Time now, std::string kind, std::string text) {

@@ -32,6 +32,7 @@ struct Verdict {
   RunIdentity run;
   Outcome outcome = Outcome::kInconclusive;
   std::vector<std::string> reasons;
+  std::vector<std::string> warnings;
   std::vector<CheckResult> checks;
   std::vector<Metric> metrics;
   std::vector<RunEvent> events;
@@ -41,6 +42,7 @@ struct Verdict {
     visit("run", self.run, "", "what was run");
     visit("outcome", self.outcome, "1", "pass, fail, inconclusive or invalid");
     visit("reasons", self.reasons, "", "why it is not a pass, one line each");
+    visit("warnings", self.warnings, "", "what did not go as the scenario says, one line each");
     visit("checks", self.checks, "", "what each check found");
     visit("metrics", self.metrics, "", "figures of the run");
     visit("events", self.events, "", "what happened, in order of time");

@@ -81,6 +81,7 @@ std::string to_json(const Verdict& verdict) {
                   {"digest", verdict.run.digest},
                   {"verdict", name_of(verdict.outcome)},
                   {"reasons", verdict.reasons},
+                  {"warnings", verdict.warnings},
                   {"checks", std::move(checks)},
                   {"metrics", std::move(metrics)},
                   {"events", std::move(events)}};
@@ -94,6 +95,7 @@ Verdict verdict_from_json(const std::string& text) {
     verdict.run = {json.at("scenario"), json.at("title"), json.at("seed"), json.at("digest")};
     verdict.outcome = outcome_from(json.at("verdict"));
     verdict.reasons = json.at("reasons").get<std::vector<std::string>>();
+    verdict.warnings = json.value("warnings", std::vector<std::string>{});
     for (const Json& check : json.at("checks")) verdict.checks.push_back(check_from_json(check));
     for (const auto& [name, value] : json.at("metrics").items()) {
       verdict.metrics.push_back(known_metric(name));

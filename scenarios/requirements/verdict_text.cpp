@@ -133,6 +133,7 @@ std::string verdict_table(const Verdict& verdict, bool colour, std::size_t colum
   for (const std::string& reason : verdict.reasons) {
     if (reasons_are_news) out += "  " + wrapped(reason, 2, columns) + "\n";
   }
+  for (const std::string& warning : verdict.warnings) out += "warning: " + warning + "\n";
   return out;
 }
 
@@ -146,7 +147,10 @@ std::string verdict_lines(const Verdict& verdict) {
   for (const std::string& reason : verdict.reasons) {
     if (verdict.outcome == Outcome::kInvalid || verdict.checks.empty()) out += ": " + reason;
   }
-  return out + "\n";
+  out += "\n";
+  for (const std::string& warning : verdict.warnings)
+    out += verdict.run.scenario + ": warning: " + warning + "\n";
+  return out;
 }
 
 }  // namespace ironbird::scenarios

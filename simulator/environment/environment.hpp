@@ -17,8 +17,7 @@ struct HomeParams {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("latitude", self.latitude, "rad", "geodetic latitude, north positive", -1.5707963267948966,
-          1.5707963267948966);
+    visit("latitude", self.latitude, "rad", "geodetic latitude, north positive; no pole", -1.57, 1.57);
     visit("longitude", self.longitude, "rad", "longitude, east positive", -3.1415926535897931,
           3.1415926535897931);
     visit("altitude", self.altitude, "m", "height above mean sea level", -500.0, 9000.0);
@@ -50,9 +49,9 @@ struct WindParams {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("steady_N", self.steady_N, "m/s", "velocity of the air that never changes");
+    visit("steady_N", self.steady_N, "m/s", "velocity of the air that never changes", -100.0, 100.0);
     visit("spread_N", self.spread_N, "m/s",
-          "standard deviation, per axis, of a further constant wind that is drawn once per run");
+          "standard deviation, per axis, of a further constant wind that is drawn once per run", 0.0, 100.0);
     visit("gusts", self.gusts, "", "single gusts");
     visit("turbulence", self.turbulence, "", "continuous turbulence");
   }

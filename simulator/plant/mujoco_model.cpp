@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cstring>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
@@ -127,7 +128,8 @@ mjModel* load(const std::string& mjcf) {
   mjModel* model = mj_loadXML(kFileName, files.get(), complaint, sizeof complaint);
   mj_deleteVFS(files.get());
   if (model == nullptr)
-    throw std::invalid_argument(std::string("the engine refuses the model: ") + complaint);
+    throw std::invalid_argument("the engine refuses the model: " +
+                                std::string(complaint, std::strcspn(complaint, "\n")));
   return model;
 }
 

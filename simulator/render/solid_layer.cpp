@@ -7,6 +7,7 @@
 #include <cstring>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -19,11 +20,12 @@ namespace {
 constexpr const char* kRootName = "ironbird_scene.xml";
 constexpr int kMaxGeoms = 4000;
 
+/// @param field  may be empty: none
 std::string scene_text(const std::string& vehicle, const std::string& field) {
   return "<mujoco><option gravity='0 0 0'/><visual><headlight ambient='0.36 0.38 0.42' diffuse='0.16 0.16 "
          "0.17' "
          "specular='0.1 0.1 0.1'/></visual><include file='" +
-         vehicle + "'/><include file='" + field + "'/></mujoco>";
+         vehicle + "'/>" + (field.empty() ? "" : "<include file='" + field + "'/>") + "</mujoco>";
 }
 
 /// The engine's message, which may have several lines, on one.
@@ -34,7 +36,18 @@ std::string on_one_line(const char* message) {
   return line;
 }
 
-mjModel* load_model(const std::string& vehicle, const std::string& field) {
+/// The engine's message without what only says how it came to read the file.
+std::string short_words(std::string message) {
+  for (const std::string_view lead : {"XML Error: ", "Error: ", "Include error: "}) {
+    if (message.starts_with(lead)) message.erase(0, lead.size());
+  }
+  const std::size_t tail = message.find(" Element 'include'");
+  if (tail != std::string::npos) message.erase(tail);
+  return message;
+}
+
+/// The scene, or null and what is wrong with it.
+mjModel* try_model(const std::string& vehicle, const std::string& field, std::string& wrong) {
   const std::string text = scene_text(vehicle, field);
   auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
@@ -45,10 +58,15 @@ mjModel* load_model(const std::string& vehicle, const std::string& field) {
   std::array<char, 1000> error{};
   mjModel* model = mj_loadXML(kRootName, files.get(), error.data(), static_cast<int>(error.size()));
   mj_deleteVFS(files.get());
-  if (model == nullptr) {
-    throw std::invalid_argument("scene " + vehicle + " with field " + field + ": " +
-                                on_one_line(error.data()));
-  }
+  if (model == nullptr) wrong = short_words(on_one_line(error.data()));
+  return model;
+}
+
+mjModel* load_model(const std::string& vehicle, const std::string& field) {
+  std::string wrong;
+  mjModel* model = try_model(vehicle, field, wrong);
+  if (model == nullptr)
+    throw std::invalid_argument("scene " + vehicle + " with field " + field + ": " + wrong);
   return model;
 }
 
@@ -70,7 +88,13 @@ struct Sphere {
 }  // namespace
 
 void check_scene(const std::string& vehicle, const std::string& field) {
-  mj_deleteModel(load_model(vehicle, field));
+  // The vehicle alone first, so that the file that is wrong can be named.
+  for (const std::string& with : {std::string(), field}) {
+    std::string wrong;
+    mjModel* model = try_model(vehicle, with, wrong);
+    if (model == nullptr) throw std::invalid_argument((with.empty() ? vehicle : field) + ": " + wrong);
+    mj_deleteModel(model);
+  }
 }
 
 struct SolidLayer::Engine {

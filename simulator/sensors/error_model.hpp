@@ -117,7 +117,7 @@ struct ScalarErrorParams : AxisErrorParams {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("bias", self.bias, Units::kValue, "constant bias");
+    visit("bias", self.bias, Units::kValue, "constant bias", -1e6, 1e6);
     visit("scale", self.scale, "1", "relative error of the scale", -1.0, 1.0);
     AxisErrorParams::describe_in<Units>(self, visit);
   }
@@ -135,14 +135,14 @@ struct TriadErrorParams : AxisErrorParams {
 
   template <class Units, class Self, class Visit>
   static void describe_in(Self& self, Visit&& visit) {
-    visit("bias", self.bias, Units::kValue, "constant bias");
+    visit("bias", self.bias, Units::kValue, "constant bias", -1e6, 1e6);
     visit("scale", self.scale, "1", "relative error of the scale, per axis", -1.0, 1.0);
     visit("misalignment", self.misalignment, "rad", "turn of the sensor's axes, rotation vector", -1.0, 1.0);
     visit("scale_sigma", self.scale_sigma, "1", "1 sigma of the part of `scale` drawn once per run", 0.0,
           1.0);
     visit("misalignment_sigma", self.misalignment_sigma, "rad",
           "1 sigma per axis of the part of `misalignment` drawn once per run", 0.0, 1.0);
-    visit("decaying_bias", self.decaying_bias, Units::kValue, "bias that dies out after power-up");
+    visit("decaying_bias", self.decaying_bias, Units::kValue, "bias that dies out after power-up", -1e6, 1e6);
     visit("decaying_bias_time_constant", self.decaying_bias_time_constant, "s",
           "how long the decaying bias lasts", 1e-6, 1e9);
     AxisErrorParams::describe_in<Units>(self, visit);

@@ -24,9 +24,10 @@ struct MagnetometerParams {
   static void describe(Self& self, Visit&& visit) {
     visit("timing", self.timing, "", "when it samples");
     visit("mounting", self.mounting, "", "where it sits; the position does not matter");
-    visit("hard_iron_B", self.hard_iron_B, "T", "field of the vehicle's own magnets");
-    visit("soft_iron", self.soft_iron, "1", "what the vehicle's iron makes of the earth's field, in B");
-    visit("current_coupling_B", self.current_coupling_B, "T/A", "field per battery current");
+    visit("hard_iron_B", self.hard_iron_B, "T", "field of the vehicle's own magnets", -1e-2, 1e-2);
+    visit("soft_iron", self.soft_iron, "1", "what the vehicle's iron makes of the earth's field, in B", -10.0,
+          10.0);
+    visit("current_coupling_B", self.current_coupling_B, "T/A", "field per battery current", -1e-3, 1e-3);
     visit("error", self.error, "", "errors of the chip");
   }
 };

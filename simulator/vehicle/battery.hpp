@@ -22,7 +22,8 @@ struct BatteryParams {
     visit("capacity", self.capacity, "A*s", "charge of a full pack", 1.0, 1e8);
     visit("initial_charge", self.initial_charge, "1", "share of the capacity at the start", 0.0, 1.0);
     visit("resistance", self.resistance, "ohm", "of the whole pack and its leads", 0.0, 10.0);
-    visit("cell_voltage", self.cell_voltage, "V", "open-circuit voltage of a cell at charge 0, 0.1, .. 1");
+    visit("cell_voltage", self.cell_voltage, "V", "open-circuit voltage of a cell at charge 0, 0.1, .. 1",
+          0.1, 10.0);
     visit("collapse", self.collapse, "1",
           "share of the capacity that is left at charge 0, and over which the voltage falls to nothing", 1e-4,
           0.2);

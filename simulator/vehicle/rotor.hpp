@@ -14,7 +14,7 @@ struct RotorMount {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("position", self.position, "m", "hub from the centre of mass, in B");
+    visit("position", self.position, "m", "hub from the centre of mass, in B", -10.0, 10.0);
     visit("direction", self.direction, "1", "+1 turns about +Bz, clockwise seen from above; -1 the other way",
           -1.0, 1.0);
   }
@@ -35,8 +35,10 @@ struct RotorParams {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("diameter", self.diameter, "m", "of the propeller", 0.01, 5.0);
-    visit("CT", self.CT, "1", "thrust coefficients: constant, linear, quadratic in the advance ratio");
-    visit("CQ", self.CQ, "1", "torque coefficients: constant, linear, quadratic in the advance ratio");
+    visit("CT", self.CT, "1", "thrust coefficients: constant, linear, quadratic in the advance ratio", -10.0,
+          10.0);
+    visit("CQ", self.CQ, "1", "torque coefficients: constant, linear, quadratic in the advance ratio", -10.0,
+          10.0);
     visit("K_V", self.K_V, "V*s/rad", "back electromotive force per speed, and torque per current", 1e-5,
           10.0);
     visit("resistance", self.resistance, "ohm", "of motor, speed controller and leads", 1e-4, 10.0);

@@ -14,6 +14,9 @@ namespace {
 /// Room for rounding in a moment of inertia that is the sum of the others, as that of a flat plate is.
 constexpr double kTriangleSlack = 1e-9;
 
+/// Half of the thinnest body that an engine still takes for a body, m.
+constexpr double kThinnest = 1e-3;
+
 template <class Value>
 [[noreturn]] void refuse(const std::string& name, const Value& value, const std::string& bound) {
   std::ostringstream text;
@@ -49,8 +52,8 @@ void check_rotors(const VehicleParams& params) {
 
 void check_contact(const ContactParams& contact) {
   if (contact.feet.size() < 3) refuse("contact.feet", contact.feet.size(), "must be at least 3 to stand");
-  if (contact.body_half_size.minCoeff() <= 0.0) {
-    refuse("contact.body_half_size", contact.body_half_size.minCoeff(), "m, must be > 0");
+  if (contact.body_half_size.minCoeff() < kThinnest) {
+    refuse("contact.body_half_size", contact.body_half_size.minCoeff(), "m, must be >= 0.001");
   }
 }
 

@@ -27,12 +27,12 @@ struct InertiaParams {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("Jxx", self.Jxx, "kg*m^2", "about Bx");
-    visit("Jyy", self.Jyy, "kg*m^2", "about By");
-    visit("Jzz", self.Jzz, "kg*m^2", "about Bz");
-    visit("Jxy", self.Jxy, "kg*m^2", "integral of x y dm");
-    visit("Jxz", self.Jxz, "kg*m^2", "integral of x z dm");
-    visit("Jyz", self.Jyz, "kg*m^2", "integral of y z dm");
+    visit("Jxx", self.Jxx, "kg*m^2", "about Bx", 0.0, 1e4);
+    visit("Jyy", self.Jyy, "kg*m^2", "about By", 0.0, 1e4);
+    visit("Jzz", self.Jzz, "kg*m^2", "about Bz", 0.0, 1e4);
+    visit("Jxy", self.Jxy, "kg*m^2", "integral of x y dm", -1e4, 1e4);
+    visit("Jxz", self.Jxz, "kg*m^2", "integral of x z dm", -1e4, 1e4);
+    visit("Jyz", self.Jyz, "kg*m^2", "integral of y z dm", -1e4, 1e4);
   }
 };
 
@@ -71,7 +71,7 @@ struct GroundEffectParams {
   static void describe(Self& self, Visit&& visit) {
     visit("kind", self.kind, "1", "none, thrust_proportional or polynomial");
     visit("polynomial", self.polynomial, "N, N/m, ..",
-          "force along -Bz over the height, fourth power first; negative values count as zero");
+          "force along -Bz over the height, fourth power first; negative values count as zero", -1e5, 1e5);
   }
 };
 
@@ -85,9 +85,9 @@ struct ContactParams {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("feet", self.feet, "m", "centres of the feet from the centre of mass, in B");
+    visit("feet", self.feet, "m", "centres of the feet from the centre of mass, in B", -10.0, 10.0);
     visit("foot_radius", self.foot_radius, "m", "of the feet", 1e-3, 1.0);
-    visit("body_half_size", self.body_half_size, "m", "half the edges of the box around the rest");
+    visit("body_half_size", self.body_half_size, "m", "half the edges of the box around the rest", 0.0, 10.0);
     visit("friction", self.friction, "1", "coefficient of friction against everything", 0.0, 10.0);
   }
 };

@@ -95,6 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedCase{"IndexBeyondTheEnd", AddWaypoint{at(0, 0, 0), 3}},
         RefusedCase{"NothingToRemove", RemoveWaypoint{2}},
         RefusedCase{"PositionNotFinite", AddWaypoint{at(kNan, 0, 0), {}}},
+        RefusedCase{"OutsideTheLocalMap", AddWaypoint{spoiled([](Waypoint& w) { w.p_N.y() = 2e5; }), {}}},
         RefusedCase{"HeadingNotFinite", AddWaypoint{spoiled([](Waypoint& w) { w.heading = kNan; }), {}}},
         RefusedCase{"NegativeSpeed", AddWaypoint{spoiled([](Waypoint& w) { w.speed = -1.0; }), {}}},
         RefusedCase{"SpeedNotFinite", AddWaypoint{spoiled([](Waypoint& w) { w.speed = kNan; }), {}}},

@@ -1,30 +1,12 @@
 // What the program says to bad input, seen from outside: one line that names the place, what was found and
 // what is allowed; exit code 2; nothing left on the disk.
 
-#include <gtest/gtest.h>
-
 #include <string>
 #include <vector>
 
-#include "scenarios/app/test/program.hpp"
+#include "scenarios/app/test/bad_input.hpp"
 
 namespace ironbird::scenarios {
-namespace {
-
-constexpr const char* kMission = "title = \"t\"\nduration = \"8 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n";
-
-struct BadInput {
-  const char* name;
-  std::string scenario;
-  std::string options;
-  std::vector<std::string> says;  // all of these
-};
-
-std::ostream& operator<<(std::ostream& stream, const BadInput& input) {
-  return stream << input.name;
-}
-
-class BadInputTest : public ::testing::TestWithParam<BadInput> {};
 
 TEST_P(BadInputTest, GetsOneClearLineAndLeavesNothingBehind) {
   const TemporaryFolder folder;
@@ -40,13 +22,17 @@ TEST_P(BadInputTest, GetsOneClearLineAndLeavesNothingBehind) {
   EXPECT_FALSE(std::filesystem::exists(out / "bad"));
 }
 
-std::string mission_and(const std::string& more) {
-  return kMission + more;
+namespace {
+
+std::string long_route(int waypoints) {
+  std::string text;
+  for (int i = 0; i < waypoints; ++i) text += "[[waypoint]]\np_N = [0, 0, -5]\n";
+  return text;
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Cases, BadInputTest,
-    ::testing::Values(
+    Values, BadInputTest,
+    ::testing::ValuesIn(std::vector<BadInput>{
         BadInput{"NotToml", "title = = 3\n", "", {"bad.toml:1:9: "}},
         BadInput{"UnknownKey",
                  mission_and("headign = 3\n"),
@@ -85,7 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "[[waypoint]]\np_N = [0, nan, -5]\n",
                  "",
                  {"bad.toml:2:11: waypoint[0].p_N[1]", "finite"}},
-        BadInput{"NoWaypoints", "duration = 8\n", "", {"bad.toml: waypoint", "[[waypoint]]", "[[event]]"}},
+        BadInput{
+            "NoWaypoints", "duration = 8\n", "", {"bad.toml:1:1: waypoint", "[[waypoint]]", "[[event]]"}},
         BadInput{"PeriodNotAMultiple",
                  mission_and("[autopilot.controller]\nperiod = \"3 ms\"\n"),
                  "",
@@ -107,69 +94,180 @@ INSTANTIATE_TEST_SUITE_P(
                  std::string("field = \"models/fields/moon.xml\"\n") + kMission,
                  "--video",
                  {"bad.toml:1:9: field", "moon.xml"}},
-        BadInput{"EventOfTwoThings",
-                 mission_and("[[event]]\nat = 1\nrequest = \"land\"\npilot = \"arm\"\n"),
-                 "",
-                 {"bad.toml:", "event[0]", "exactly one"}},
-        BadInput{"RequestOfNoName",
-                 mission_and("[[event]]\nat = 1\nrequest = \"lnad\"\n"),
-                 "",
-                 {"bad.toml:7:11: event[0].request", "land"}},
-        BadInput{"CheckOfNoSignal",
-                 mission_and("[[check]]\nname = \"c\"\nsignal = \"truth.p_NB\"\nstays_below = \"1 m\"\n"),
-                 "",
-                 {"bad.toml:", "truth.p_NB", "truth.p_NB_N"}},
         BadInput{"SettingWithoutValue", kMission, "--set duration", {"path=value"}},
         BadInput{"SettingOfNoName", kMission, "--set plant.engin=ode", {"--set", "plant.engin", "'engine'"}},
         BadInput{"SeedThatIsNone", kMission, "--seed seven", {"--seed seven", "1:20"}},
         BadInput{"FilmWithoutLog", kMission, "--no-log --video", {"--no-log"}},
+        BadInput{"AutopilotAsAValue",
+                 std::string("autopilot = 3\n") + kMission,
+                 "",
+                 {"bad.toml:1:13: autopilot", "a table, [autopilot], in models/x650/autopilot.toml"}},
+        BadInput{"SlotAsAValue",
+                 mission_and("[autopilot]\nestimator = \"ekf\"\n"),
+                 "",
+                 {"bad.toml:6:13: autopilot.estimator", "[autopilot.estimator]", "kind = \"ekf\""}},
+        BadInput{"GroupOfParametersAsAValue",
+                 mission_and("[autopilot.estimator]\ngnss = 3\n"),
+                 "",
+                 {"bad.toml:6:8: autopilot.estimator.gnss",
+                  "a group of parameters, written [autopilot.estimator.gnss]"}},
+        BadInput{"EmptyGroupOfNoName",
+                 mission_and("[autopilot.estimator.nonsense]\n"),
+                 "",
+                 {"bad.toml:5:1: autopilot.estimator.nonsense", "no such parameter"}},
+        BadInput{"FcuAsAValue",
+                 std::string("fcu = \"x\"\n") + kMission,
+                 "",
+                 {"bad.toml:1:7: fcu: is a value here and a table, [fcu],"}},
+        BadInput{"PlantAsAValue",
+                 std::string("plant = 3\n") + kMission,
+                 "",
+                 {"bad.toml:1:9: plant = 3: must be a table, written [plant]"}},
+        BadInput{"WaypointAsATable",
+                 "[waypoint]\np_N = [0, 0, -5]\n",
+                 "",
+                 {"bad.toml:1:1: waypoint", "write [[waypoint]] instead of [waypoint]"}},
+        BadInput{"IncludeByOption",
+                 kMission,
+                 "--set include=x",
+                 {"--set include=x: only a file can include others"}},
+        BadInput{"TableByOption",
+                 kMission,
+                 "--set autopilot=3",
+                 {"--set autopilot=3: autopilot: must be a table"}},
+        BadInput{"WrongValueByOption",
+                 kMission,
+                 "--set plant.engine=oed",
+                 {"--set plant.engine=oed: plant.engine", "'ode'"}},
+        BadInput{"WrongVehicleByOption",
+                 kMission,
+                 "--set vehicle=none",
+                 {"--set vehicle=none: vehicle = \"none\"", "models/x650"}},
+        BadInput{"ElementByOptionThatIsNotThere",
+                 kMission,
+                 "--set waypoint[3].heading=1",
+                 {"--set waypoint[3].heading=1: there is no such place: waypoint has 1 elements"}},
+        BadInput{"WaypointWithoutAPlace",
+                 "[[waypoint]]\nheading = 1\n",
+                 "",
+                 {"bad.toml:1:1: waypoint[0]", "either p_N or geodetic, has neither"}},
+        BadInput{"WaypointWithTwoPlaces",
+                 mission_and("geodetic = { latitude = 0.7, longitude = -1.9, altitude = 1400 }\n"),
+                 "",
+                 {"bad.toml:3:1: waypoint[0]", "has both"}},
+        BadInput{"WaypointBelowTheGround",
+                 "[[waypoint]]\np_N = [0, 0, 5]\n",
+                 "",
+                 {"bad.toml:2:14: waypoint[0].p_N[2]", "below the ground"}},
+        BadInput{"WaypointOutOfTheMap",
+                 "[[waypoint]]\np_N = [1e300, 0, -5]\n",
+                 "",
+                 {"bad.toml:2:8: waypoint[0].p_N[0]", "between -1e+05 and 1e+05 m"}},
+        BadInput{"LatitudeWithoutDegrees",
+                 "[[waypoint]]\ngeodetic = { latitude = 40.2, longitude = -1.9, altitude = 1400 }\n",
+                 "",
+                 {"bad.toml:2:25: waypoint[0].geodetic.latitude = 40.2", "(-90 and 90 deg)"}},
+        BadInput{"PlaceWithoutLongitude",
+                 "[[waypoint]]\ngeodetic = { latitude = 0.7, altitude = 1400 }\n",
+                 "",
+                 {"waypoint[0].geodetic", "needs the key `longitude`"}},
+        BadInput{
+            "PlaceInAnotherCountry",
+            "[[waypoint]]\ngeodetic = { latitude = \"47 deg\", longitude = \"8 deg\", altitude = 1400 }\n",
+            "",
+            {"waypoint[0].geodetic", "km from environment.home"}},
+        BadInput{"PlaceBelowTheGround",
+                 "[[waypoint]]\ngeodetic = { latitude = 0.7024317104, longitude = -1.9486149720, altitude = "
+                 "14 }\n",
+                 "",
+                 {"waypoint[0].geodetic.altitude", "must be >= 1387 m"}},
+        BadInput{"RouteThatIsTooLong",
+                 long_route(257),
+                 "",
+                 {"bad.toml:1:1: waypoint: the route would have 257", "at most 256"}},
+        BadInput{"TickThatIsTooShort",
+                 mission_and("[fcu]\ntick = \"0.1 us\"\n"),
+                 "",
+                 {"bad.toml:6:8: fcu.tick", "between 1e-04 and 0.02 s"}},
+        BadInput{"NegativeLatency",
+                 mission_and("[fcu]\nuplink_latency = \"-1 ms\"\n"),
+                 "",
+                 {"bad.toml:6:18: fcu.uplink_latency", "between 0 and 1 s"}},
+        BadInput{"NoMotors",
+                 mission_and("[fcu.parameters]\nNUM_MOTORS = 0\n"),
+                 "",
+                 {"bad.toml:6:14: fcu.parameters.NUM_MOTORS = 0", "between 1 and 10"}},
+        BadInput{"MixerOfNoNumber",
+                 mission_and("[fcu.parameters]\nPRIMARY_MIXER = 99\n"),
+                 "",
+                 {"bad.toml:6:17: fcu.parameters.PRIMARY_MIXER = 99", "between 0 and 11"}},
+        BadInput{"FirmwareParameterOfNoName",
+                 mission_and("[fcu.parameters]\nNUM_MOTOR = 4\n"),
+                 "",
+                 {"bad.toml:6:1: fcu.parameters.NUM_MOTOR", "'NUM_MOTORS'"}},
+        BadInput{"FirmwareParameterOfTheWrongType",
+                 mission_and("[fcu.parameters]\nNUM_MOTORS = 4.5\n"),
+                 "",
+                 {"bad.toml:6:14: fcu.parameters.NUM_MOTORS", "whole number"}},
+        BadInput{"StartOutOfTheWorld",
+                 mission_and("[start]\np_N = [1e300, 0, 0]\n"),
+                 "",
+                 {"bad.toml:6:8: start.p_N[0]", "between"}},
+        BadInput{"RecordOfNoPeriod",
+                 mission_and("[record]\nstate_period = 0\n"),
+                 "",
+                 {"bad.toml:6:16: record.state_period", "between 0.0025 and 10 s"}},
+        BadInput{"SensorThatIsTooFast",
+                 mission_and("[sensors.imu.timing]\nrate = 1e9\n"),
+                 "",
+                 {"bad.toml:6:8: sensors.imu.timing.rate", "between"}},
+        BadInput{"SensorBesideTheTick",
+                 mission_and("[sensors.gnss.timing]\nrate = 7\n"),
+                 "",
+                 {"bad.toml:6:8: sensors.gnss.timing.rate = 7 Hz", "6.89655 Hz"}},
+        BadInput{"HomeAtAPole",
+                 mission_and("[environment.home]\nlatitude = \"90 deg\"\n"),
+                 "",
+                 {"bad.toml:6:12: environment.home.latitude", "between"}},
+        BadInput{"WindOfNoWorld",
+                 mission_and("[environment.wind]\nsteady_N = [1e300, 0, 0]\n"),
+                 "",
+                 {"bad.toml:6:13: environment.wind.steady_N[0]", "100 m/s"}},
+        BadInput{"SeedThatIsTooGreat",
+                 kMission,
+                 "--seed 9223372036854775808",
+                 {"--seed 9223372036854775808: must be at most 9223372036854775807"}},
+        BadInput{"SeedsThatRunBackwards", kMission, "--seed 20:1", {"--seed 20:1: runs backwards"}},
+        BadInput{"SeedsWithoutEnd",
+                 kMission,
+                 "--seed 1:99999999",
+                 {"--seed 1:99999999: must be at most 10000 seeds"}},
+        BadInput{"SeedInTheFileThatIsTooGreat",
+                 std::string("seed = 9223372036854775808\n") + kMission,
+                 "",
+                 {"bad.toml:1:", "9223372036854775808"}},
+        BadInput{"DurationWithoutEnd",
+                 "duration = inf\n[[waypoint]]\np_N = [0, 0, -5]\n",
+                 "",
+                 {"bad.toml:1:12: duration = inf", "finite"}},
+        BadInput{"KeyGivenTwice",
+                 std::string("seed = 1\nseed = 2\n") + kMission,
+                 "",
+                 {"bad.toml:2:8: ", "'seed'"}},
+        BadInput{"TableGivenTwice", mission_and("[plant]\n[plant]\n"), "", {"bad.toml:6:1: ", "'plant'"}},
+        BadInput{"DeepNesting",
+                 "x = " + std::string(5000, '[') + std::string(5000, ']') + "\n",
+                 "",
+                 {"bad.toml:1:", "nested"}},
+        BadInput{"KeyOfTwoLines",
+                 std::string("\"a\\nb\" = 1\n") + kMission,
+                 "",
+                 {"bad.toml:1:1: a b = 1: unknown key"}},
         BadInput{"IncludeThatIsMissing",
                  std::string("include = [\"none.toml\"]\n") + kMission,
                  "",
-                 {"bad.toml:1:", "none.toml"}}),
+                 {"bad.toml:1:", "none.toml"}}}),
     [](const auto& tested) { return std::string(tested.param.name); });
-
-TEST(BadFileTest, MissingScenarioIsNamed) {
-  const Said said = run_shell(kProgram + " run /nowhere/at_all.toml");
-  EXPECT_EQ(said.exit_code, 2);
-  EXPECT_EQ(said.text, "/nowhere/at_all.toml: cannot be opened\n");
-}
-
-TEST(BadFileTest, AllFindingsAreToldAtOnce) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("bad.toml", std::string("duratoin = 3\nseed = -1\n") + kMission);
-  const Said said = run_shell(kProgram + " check " + file);
-  EXPECT_EQ(said.exit_code, 2);
-  EXPECT_EQ(said.lines(), 2) << said.text;
-}
-
-TEST(BadFileTest, AVehicleWithoutASceneIsNoticedBeforeTheFlightWhenItIsToBeFilmed) {
-  const TemporaryFolder folder;
-  run_shell("cp -r models/x650 " + folder.text() + "/plain && rm " + folder.text() + "/plain/scene.xml");
-  const std::string file = folder.write("film.toml", kMission);
-  const std::string out = (folder / "out").string();
-  const Said said = run_shell(kProgram + " run " + file + " --video --set vehicle=" + folder.text() +
-                              "/plain --out " + out);
-  EXPECT_EQ(said.exit_code, 2) << said.text;
-  EXPECT_EQ(said.lines(), 1) << said.text;
-  EXPECT_NE(said.text.find("plain/scene.xml"), std::string::npos) << said.text;
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/film"));
-}
-
-TEST(BadFileTest, AMeshThatIsMissingIsNoticedBeforeTheFlightWhenItIsToBeFilmed) {
-  const TemporaryFolder folder;
-  run_shell("cp -r models/x650 " + folder.text() + "/meshed");
-  folder.write("meshed/scene.xml",
-               "<mujoco><asset><mesh name='hull' file='hull.stl'/></asset>"
-               "<worldbody><body name='vehicle'><geom type='mesh' mesh='hull'/></body></worldbody></mujoco>");
-  const std::string file = folder.write("film.toml", kMission);
-  const Said said = run_shell(kProgram + " run " + file + " --video --set vehicle=" + folder.text() +
-                              "/meshed --out " + folder.text() + "/out");
-  EXPECT_EQ(said.exit_code, 2) << said.text;
-  EXPECT_EQ(said.lines(), 1) << said.text;
-  EXPECT_NE(said.text.find("hull.stl"), std::string::npos) << said.text;
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/film"));
-}
 
 }  // namespace
 }  // namespace ironbird::scenarios

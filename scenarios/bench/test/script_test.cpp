@@ -41,14 +41,21 @@ TEST(ScriptTest, CountsFromTheFirstEventOfAName) {
   EXPECT_EQ(all_due(script, seconds(13)), (std::vector<std::size_t>{0}));
 }
 
-TEST(ScriptTest, TellsWhatItStillWaitsFor) {
+TEST(ScriptTest, TellsWhatIsLeft) {
   Script script;
   script.add("b", seconds(0));
   script.add("a", seconds(0));
-  script.add("b", seconds(1));
-  EXPECT_EQ(script.still_waited_for(), (std::vector<std::string>{"a", "b"}));
-  script.happened("b", seconds(0));
-  EXPECT_EQ(script.still_waited_for(), (std::vector<std::string>{"a"}));
+  script.add("b", seconds(9));
+  EXPECT_EQ(script.left().size(), 3U);
+  script.happened("b", seconds(1));
+  EXPECT_EQ(all_due(script, seconds(2)), (std::vector<std::size_t>{0}));
+  const std::vector<Script::Left> left = script.left();
+  ASSERT_EQ(left.size(), 2U);
+  EXPECT_EQ(left[0].item, 1U);
+  EXPECT_EQ(left[0].after, "a");
+  EXPECT_FALSE(left[0].due);
+  EXPECT_EQ(left[1].item, 2U);
+  EXPECT_EQ(left[1].due, seconds(10));
 }
 
 }  // namespace

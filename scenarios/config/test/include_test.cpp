@@ -94,8 +94,48 @@ TEST_F(IncludeTest, RefusesACircle) {
 
 TEST_F(IncludeTest, SaysWhoAskedForAMissingFile) {
   const std::string a = file("a.toml", "include = [\"b.toml\"]\n");
-  EXPECT_EQ(error("a.toml"), a + ":1:12: " + (root_ / "b.toml").string() + ": cannot be opened");
-  EXPECT_EQ(error("none.toml"), (root_ / "none.toml").string() + ": cannot be opened");
+  EXPECT_EQ(error("a.toml"), a + ":1:12: " + (root_ / "b.toml").string() +
+                                 ": cannot be opened: there is no such file; did you mean '" + a + "'?");
+  EXPECT_EQ(error("missing.toml"),
+            (root_ / "missing.toml").string() + ": cannot be opened: there is no such file");
+}
+
+TEST_F(IncludeTest, RefusesAFolder) {
+  const std::string a = file("a.toml", "include = [\"inner\"]\n");
+  file("inner/b.toml", "");
+  EXPECT_EQ(error("a.toml"),
+            a + ":1:12: " + (root_ / "inner").string() + ": is a folder, must be a TOML file");
+}
+
+TEST_F(IncludeTest, RefusesAFileThatIncludesItself) {
+  file("a.toml", "include = [\"./a.toml\"]\n");
+  EXPECT_THAT(error("a.toml"), HasSubstr("a.toml:1:12: include = "));
+  EXPECT_THAT(error("a.toml"), HasSubstr("in a circle"));
+}
+
+TEST_F(IncludeTest, RefusesATableWhereTheOtherFileHasNone) {
+  const std::string a = file("a.toml", "include = [\"b.toml\"]\nfcu = \"x\"\n");
+  const std::string b = file("b.toml", "[fcu]\nkind = 1\n");
+  EXPECT_EQ(error("a.toml"),
+            a + ":2:7: fcu: is a value here and a table, [fcu], in " + b + ":1:1; write it as there");
+  const std::string c = file("c.toml", "include = [\"d.toml\"]\n[a.check]\nname = \"x\"\n");
+  const std::string d = file("d.toml", "[[a.check]]\nname = \"y\"\n");
+  EXPECT_EQ(error("c.toml"), c + ":2:1: a.check: is a table, [a.check], here and an array in " + d +
+                                 ":1:1; write it as there");
+}
+
+TEST_F(IncludeTest, TakesAFileWithAByteOrderMarkAndReturns) {
+  file("a.toml", "\xEF\xBB\xBFx = 1\r\ny = 2\r\n");
+  EXPECT_EQ(load("a.toml")["y"].value<int>(), 2);
+}
+
+TEST_F(IncludeTest, SaysWhereAFileIsNoText) {
+  const std::string a = file("a.toml", "x = 1\ny = \"\xFF\xFE\"\n");
+  EXPECT_THAT(error("a.toml"), HasSubstr(a + ":2:"));
+  const std::string b = file("b.toml", std::string("\x7F"
+                                                   "ELF\0\0\1",
+                                                   7));
+  EXPECT_THAT(error("b.toml"), HasSubstr(b + ":1:1: "));
 }
 
 TEST_F(IncludeTest, RefusesWhatIsNoListOfPaths) {
@@ -145,21 +185,22 @@ TEST_P(WrongPathTest, IsRefused) {
     with(GetParam().path, "1");
     FAIL() << GetParam().path;
   } catch (const ConfigError& error) {
-    EXPECT_EQ(std::string(error.what()), std::string("--set ") + GetParam().path + ": " + GetParam().message);
+    EXPECT_EQ(std::string(error.what()), std::string("--set ") + GetParam().path + GetParam().message);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Paths, WrongPathTest,
-                         ::testing::Values(PathCase{"", "is no path, such as plant.step"},
-                                           PathCase{"a..b", "is no path, such as plant.step"},
-                                           PathCase{"a.", "is no path, such as plant.step"},
-                                           PathCase{"[0]", "is no path, such as plant.step"},
-                                           PathCase{"list[", "is no path, such as plant.step"},
-                                           PathCase{"list[x]", "is no path, such as plant.step"},
-                                           PathCase{"list[2].v", "there is no such place"},
-                                           PathCase{"numbers[3]", "there is no such place"},
-                                           PathCase{"x.y", "there is no such place"},
-                                           PathCase{"x[0]", "there is no such place"}));
+INSTANTIATE_TEST_SUITE_P(
+    Paths, WrongPathTest,
+    ::testing::Values(PathCase{"", ": is no path, such as plant.engine or waypoint[0].heading"},
+                      PathCase{"a..b", ": is no path, such as plant.engine or waypoint[0].heading"},
+                      PathCase{"a.", ": is no path, such as plant.engine or waypoint[0].heading"},
+                      PathCase{"[0]", ": is no path, such as plant.engine or waypoint[0].heading"},
+                      PathCase{"list[", ": is no path, such as plant.engine or waypoint[0].heading"},
+                      PathCase{"list[x]", ": is no path, such as plant.engine or waypoint[0].heading"},
+                      PathCase{"list[2].v", "=1: there is no such place: list has 2 elements, from [0]"},
+                      PathCase{"numbers[3]", "=1: there is no such place: numbers has 3 elements, from [0]"},
+                      PathCase{"x.y", "=1: there is no such place: x is a single value"},
+                      PathCase{"x[0]", "=1: there is no such place: x is a single value"}));
 
 }  // namespace
 }  // namespace ironbird::scenarios

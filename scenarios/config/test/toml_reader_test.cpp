@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "x.toml:2:1: gains.wobble = 1: unknown key, known are: pull, order, limit"},
         FindingCase{"title = 5", "x.toml:1:9: title = 5: must be a text in quotes"},
         FindingCase{"fast = 1", "x.toml:1:8: fast = 1: must be true or false"},
-        FindingCase{"level = true", "x.toml:1:9: level = true: must be a number V"},
+        FindingCase{"level = true", "x.toml:1:9: level = true: must be a number, in V"},
         FindingCase{"level = nan", "x.toml:1:9: level = nan: must be finite"},
         FindingCase{"level = -inf", "x.toml:1:9: level = -inf: must be finite"},
         FindingCase{"level = 11", "x.toml:1:9: level = 11: must be between -10 and 10 V"},
@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
         FindingCase{"kinds = ['hodl']",
                     "x.toml:1:10: kinds[0] = 'hodl': must be one of goto, hold, land; did you mean 'hold'?"},
         FindingCase{"kinds = [3]", "x.toml:1:10: kinds[0] = 3: must be one of goto, hold, land"},
-        FindingCase{"gains = 3", "x.toml:1:9: gains = 3: must be a table"},
+        FindingCase{"gains = 3", "x.toml:1:9: gains = 3: must be a table, written [gains]"},
         FindingCase{"[spare]\nlimit = -1", "x.toml:2:9: spare.limit = -1: must be >= 0 m/s"},
         FindingCase{"fast = 1\nlevel = 11",
                     "x.toml:1:8: fast = 1: must be true or false\n"
@@ -218,6 +218,39 @@ geodetic = { latitude = "45 deg", altitude = 100 }
   EXPECT_EQ(route.waypoints[1].geodetic->altitude, 100.0);
 }
 
+std::string wrong_route(std::string_view text) {
+  Route route;
+  try {
+    read_toml(parse_toml(text, "mission.toml"), route);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(TomlReaderTest, ShowsTheRightFormOfAnArrayOfTables) {
+  EXPECT_EQ(wrong_route("[waypoints]\nspeed = 1\n"),
+            "mission.toml:1:1: waypoints = { speed = 1 }: must be an array of tables: write [[waypoints]] "
+            "instead of [waypoints]");
+  EXPECT_EQ(wrong_route("waypoints = 3\n"),
+            "mission.toml:1:13: waypoints = 3: must be an array of tables, each written [[waypoints]]");
+  EXPECT_EQ(wrong_route("waypoints = [3]\n"),
+            "mission.toml:1:14: waypoints[0] = 3: must be a table, written [[waypoints]]");
+  EXPECT_EQ(wrong_route("[[waypoints]]\ngeodetic = 3\n"),
+            "mission.toml:2:12: waypoints[0].geodetic = 3: must be a table, written { key = value }");
+}
+
+TEST(TomlReaderTest, SaysTheBoundsOfAnAngleInDegreesToo) {
+  EXPECT_EQ(wrong_route("[[waypoints]]\ngeodetic = { latitude = 95 }\n"),
+            "mission.toml:2:25: waypoints[0].geodetic.latitude = 95: must be between -1.5707963267948966 and "
+            "1.5707963267948966 rad (-90 and 90 deg)");
+}
+
+TEST(TomlReaderTest, KeepsAFindingOnOneLine) {
+  EXPECT_EQ(wrong_route("\"a\\nb\" = \"\\u001B[2J\"\n").find('\n'), std::string::npos);
+  EXPECT_EQ(wrong_route("\"a\\nb\" = \"\\u001B[2J\"\n").find('\x1B'), std::string::npos);
+}
+
 TEST(ApplyTest, SetsOneMemberAndLeavesTheRest) {
   Config config;
   apply(config, "gains.pull", "3");
@@ -233,13 +266,14 @@ TEST(ApplyTest, SaysThatTheCommandLineIsWrong) {
     apply(config, "gains.pull", "30 1/s");
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "--set: gains.pull = '30 1/s': must be between 0 and 20 1/s");
+    EXPECT_STREQ(error.what(),
+                 "--set gains.pull=30 1/s: gains.pull = '30 1/s': must be between 0 and 20 1/s");
   }
   try {
     apply(config, "gains.pul", "3");
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "--set: gains.pul = 3: unknown key, did you mean 'pull'?");
+    EXPECT_STREQ(error.what(), "--set gains.pul=3: gains.pul = 3: unknown key, did you mean 'pull'?");
   }
 }
 

@@ -76,6 +76,7 @@ TEST(VerdictJsonTest, HasItsKeysInTheAgreedOrder) {
   "reasons": [
     "long name: found long name"
   ],
+  "warnings": [],
   "checks": [
     {
       "name": "a",
@@ -192,6 +193,20 @@ TEST(VerdictLinesTest, SaysOneThingPerLine) {
             "three_waypoints: fail\n");
 }
 
+TEST(VerdictLinesTest, PutsWarningsBehindTheVerdict) {
+  Verdict verdict = example();
+  verdict.warnings = {"nothing came of it"};
+  EXPECT_TRUE(verdict_lines(verdict).ends_with("fail\nthree_waypoints: warning: nothing came of it\n"));
+  EXPECT_TRUE(verdict_table(verdict, false).ends_with("\nwarning: nothing came of it\n"));
+  EXPECT_EQ(verdict_from_json(to_json(verdict)).warnings, verdict.warnings);
+}
+
+TEST(VerdictJsonTest, ReadsAFileFromBeforeThereWereWarnings) {
+  std::string text = to_json(example());
+  text.erase(text.find("  \"warnings\": [],\n"), std::string("  \"warnings\": [],\n").size());
+  EXPECT_TRUE(verdict_from_json(text).warnings.empty());
+}
+
 TEST(NumberTextTest, ShowsFourDigitsAndDegrees) {
   EXPECT_EQ(with_unit(0.0431234, "m"), "0.04312 m");
   EXPECT_EQ(with_unit(3.14159265358979 / 4.0, "rad"), "45 deg");
@@ -290,7 +305,7 @@ TEST_F(JudgeTest, NamesTheCheckThatDoesNotFit) {
     const Judge judge({config}, table_, {&truth_, &signals_}, 10ms);
     FAIL() << "it was accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("check \"broken\": no signal truth.nothing"));
+    EXPECT_THAT(error.what(), HasSubstr("check[0].signal = \"truth.nothing\": no signal truth.nothing"));
   }
 }
 

@@ -1,0 +1,158 @@
+// Files that are missing, odd or wrong, and what is told about several of them.
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "scenarios/app/test/bad_input.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+TEST(BadFileTest, MissingScenarioIsNamed) {
+  const Said said = run_shell(kProgram + " run /nowhere/at_all.toml");
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(said.text, "/nowhere/at_all.toml: cannot be opened: there is no such file\n");
+}
+
+TEST(BadFileTest, AllFindingsAreToldAtOnce) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("bad.toml", std::string("duratoin = 3\nseed = -1\n") + kMission);
+  const Said said = run_shell(kProgram + " check " + file);
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(said.lines(), 3) << said.text;
+  EXPECT_NE(said.text.find("\n2 findings in 1 of 1 file\n"), std::string::npos) << said.text;
+}
+
+TEST(BadFileTest, CheckGoesOnBehindAWrongFile) {
+  const TemporaryFolder folder;
+  const std::string wrong = folder.write("wrong.toml", "title = = 3\n");
+  const std::string right = folder.write("right.toml", kMission);
+  const Said said =
+      run_shell(kProgram + " check " + wrong + " " + (folder / "none.toml").string() + " " + right);
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(said.lines(), 4) << said.text;
+  EXPECT_NE(said.text.find("right.toml: no finding\n2 findings in 2 of 3 files\n"), std::string::npos)
+      << said.text;
+}
+
+TEST(BadFileTest, NothingIsFlownWhenOneOfSeveralScenariosIsWrong) {
+  const TemporaryFolder folder;
+  const std::string right = folder.write("right.toml", kMission);
+  const std::string wrong = folder.write("wrong.toml", "title = = 3\n");
+  const std::string out = (folder / "out").string();
+  const Said said = run_shell(kProgram + " run " + right + " " + wrong + " --out " + out);
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+struct OddFile {
+  const char* name;
+  std::string make;  // what the shell does; F is the file
+  const char* says;
+};
+
+class OddFileTest : public ::testing::TestWithParam<OddFile> {};
+
+TEST_P(OddFileTest, IsRefusedInOneLine) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "odd.toml").string();
+  const Said said = run_shell("F=" + file + "; " + GetParam().make + "; " + kProgram + " check $F");
+  EXPECT_EQ(said.exit_code, 2) << said.text;
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_NE(said.text.find(GetParam().says), std::string::npos) << said.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, OddFileTest,
+    ::testing::Values(
+        OddFile{"Folder", "mkdir $F", "odd.toml: is a folder, must be a TOML file"},
+        OddFile{"Device", "F=/dev/null", "/dev/null: is no regular file"},
+        OddFile{"Empty", ": > $F", "odd.toml:1:1: waypoint: there is none"},
+        OddFile{"Binary", "head -c 4096 " + kProgram + " > $F", "odd.toml:1:"},
+        OddFile{"Zeros", "truncate -s 1G $F", "has 1073741824 bytes, a configuration has at most"},
+        OddFile{"NoUtf8", "printf 'title = \"\\377\"\\n' > $F", "odd.toml:1:9: "},
+        OddFile{"Utf16", "printf '\\377\\376t\\0' > $F", "odd.toml:1:1: "},
+        OddFile{"IncludesItself", "echo 'include = [\"odd.toml\"]' > $F", "odd.toml:1:12: include = "},
+        OddFile{"IncludesAFolder", "echo 'include = [\"models\"]' > $F",
+                "models: is a folder, must be a TOML file"},
+        OddFile{"NameOfNoEnd", "F=$F$(printf 'x%.0s' $(seq 300))", "cannot be opened: File name"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(BadFileTest, AByteOrderMarkAndWindowsLinesAreTaken) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("windows.toml",
+                                        "\xEF\xBB\xBF"
+                                        "duration = 8\r\n[[waypoint]]\r\np_N = [0, 0, -5]\r\n");
+  const Said said = run_shell(kProgram + " check " + file);
+  EXPECT_EQ(said.exit_code, 0) << said.text;
+}
+
+TEST(BadFileTest, AFindingInAnIncludedFileNamesThatFile) {
+  const TemporaryFolder folder;
+  folder.write("base.toml", "\nduration = \"8 kg\"\n");
+  const std::string file =
+      folder.write("top.toml", "include = [\"base.toml\"]\n[[waypoint]]\np_N = [0, 0, -5]\n");
+  const Said said = run_shell(kProgram + " check " + file);
+  EXPECT_NE(said.text.find("base.toml:2:12: duration = '8 kg'"), std::string::npos) << said.text;
+}
+
+TEST(BadFileTest, AFieldThatCannotBeDrawnIsNamed) {
+  const TemporaryFolder folder;
+  const std::string field =
+      folder.write("moon.xml", "<mujoco><worldbody><geom type='bal'/></worldbody></mujoco>");
+  const std::string file = folder.write("top.toml", "field = \"" + field + "\"\n" + kMission);
+  const Said said = run_shell(kProgram + " check " + file);
+  EXPECT_EQ(said.exit_code, 2) << said.text;
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_NE(said.text.find("top.toml:1:9: field = "), std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("cannot be drawn: " + field + ": "), std::string::npos) << said.text;
+}
+
+TEST(WarningTest, TellsWhatNeverHappenedInFlight) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "waits.toml", std::string("end_after = \"landed\"\n") + kMission +
+                        "[[event]]\nname = \"late\"\nafter = \"lost\"\nrequest = \"land\"\n[[check]]\nname = "
+                        "\"c\"\nhappens = \"autopilot.flight.fcu.armed\"\n");
+  const Said said = run_shell(kProgram + " run " + file + " --no-log --out " + folder.text());
+  EXPECT_EQ(said.exit_code, 0) << said.text;
+  const std::string late = "event \"late\" waited for \"lost\", which never happened";
+  EXPECT_NE(said.text.find("waits: warning: " + late), std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("the end of the run waited for \"landed\""), std::string::npos) << said.text;
+  std::ifstream verdict(folder / "waits/verdict.json");
+  const std::string json((std::istreambuf_iterator<char>(verdict)), std::istreambuf_iterator<char>());
+  EXPECT_NE(json.find("event \\\"late\\\" waited for"), std::string::npos) << json.substr(0, 500);
+}
+
+TEST(BadFileTest, AVehicleWithoutASceneIsNoticedBeforeTheFlightWhenItIsToBeFilmed) {
+  const TemporaryFolder folder;
+  run_shell("cp -r models/x650 " + folder.text() + "/plain && rm " + folder.text() + "/plain/scene.xml");
+  const std::string file = folder.write("film.toml", kMission);
+  const std::string out = (folder / "out").string();
+  const Said said = run_shell(kProgram + " run " + file + " --video --set vehicle=" + folder.text() +
+                              "/plain --out " + out);
+  EXPECT_EQ(said.exit_code, 2) << said.text;
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_NE(said.text.find("plain/scene.xml"), std::string::npos) << said.text;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/film"));
+}
+
+TEST(BadFileTest, AMeshThatIsMissingIsNoticedBeforeTheFlightWhenItIsToBeFilmed) {
+  const TemporaryFolder folder;
+  run_shell("cp -r models/x650 " + folder.text() + "/meshed");
+  folder.write("meshed/scene.xml",
+               "<mujoco><asset><mesh name='hull' file='hull.stl'/></asset>"
+               "<worldbody><body name='vehicle'><geom type='mesh' mesh='hull'/></body></worldbody></mujoco>");
+  const std::string file = folder.write("film.toml", kMission);
+  const Said said = run_shell(kProgram + " run " + file + " --video --set vehicle=" + folder.text() +
+                              "/meshed --out " + folder.text() + "/out");
+  EXPECT_EQ(said.exit_code, 2) << said.text;
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_NE(said.text.find("hull.stl"), std::string::npos) << said.text;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/film"));
+}
+
+}  // namespace
+}  // namespace ironbird::scenarios

@@ -1,0 +1,78 @@
+#include "scenarios/bench/check_rules.hpp"
+
+#include <memory>
+#include <stdexcept>
+
+#include "scenarios/bench/event_names.hpp"
+#include "scenarios/bench/run_time.hpp"
+#include "scenarios/requirements/check.hpp"
+#include "scenarios/requirements/window.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+/// What the checks could name in a run, without a run.
+struct Still {
+  simulator::Truth truth;
+  autopilot::Signals autopilot;
+  hil_bridge::Telemetry fcu;
+  SignalTable table;
+  Still() { add_signals(table, truth, autopilot, fcu); }
+};
+
+class CheckRules {
+ public:
+  explicit CheckRules(const LoadedScenario& loaded)
+      : loaded_(loaded), names_(loaded.scenario), still_(std::make_unique<Still>()) {}
+
+  std::vector<std::string> findings() {
+    for (std::size_t i = 0; i < loaded_.scenario.checks.size(); ++i) {
+      const std::string path = "check[" + std::to_string(i) + "]";
+      const CheckConfig& check = loaded_.scenario.checks[i];
+      try {
+        const Check possible(
+            check, {&still_->table, &still_->autopilot.route, to_seconds(loaded_.scenario.fcu.tick)});
+        check_events(path, check);
+      } catch (const std::invalid_argument& error) {
+        findings_.push_back(complaint_at(path, error.what()));
+      }
+    }
+    return std::move(findings_);
+  }
+
+ private:
+  void check_events(const std::string& path, const CheckConfig& check) {
+    check_event(path + ".after", Moment::read(check.after, "after").event);
+    check_event(path + ".until", Moment::read(check.until, "until").event);
+    if (!check.order_of_events) return;
+    for (std::size_t i = 0; i < check.order_of_events->size(); ++i)
+      check_event(path + ".order_of_events[" + std::to_string(i) + "]", (*check.order_of_events)[i]);
+  }
+
+  void check_event(const std::string& path, const std::string& event) {
+    if (event.empty()) return;
+    const std::string wrong = names_.complaint(event, EventNames::Waiting::kCheck);
+    if (!wrong.empty()) findings_.push_back(path + " = \"" + event + "\": " + wrong);
+  }
+
+  const LoadedScenario& loaded_;
+  const EventNames names_;
+  std::unique_ptr<Still> still_;
+  std::vector<std::string> findings_;
+};
+
+}  // namespace
+
+void add_signals(SignalTable& table, const simulator::Truth& truth, const autopilot::Signals& autopilot,
+                 const hil_bridge::Telemetry& fcu) {
+  table.add("truth", truth);
+  table.add("autopilot", autopilot);
+  table.add("fcu", fcu);
+}
+
+std::vector<std::string> check_findings(const LoadedScenario& loaded) {
+  return CheckRules(loaded).findings();
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "autopilot/signals.hpp"
+#include "hil_bridge/translate/telemetry.hpp"
+#include "scenarios/bench/scenario_loader.hpp"
+#include "scenarios/requirements/signal_table.hpp"
+#include "simulator/types/truth.hpp"
+
+namespace ironbird::scenarios {
+
+/// Lists everything that a check can name. The structs stay where they are as long as the table is used.
+void add_signals(SignalTable& table, const simulator::Truth& truth, const autopilot::Signals& autopilot,
+                 const hil_bridge::Telemetry& fcu);
+
+/// What is wrong with the scenario's checks: what no check could be made of, and events that can never
+/// happen. Each finding begins with the path that it is about.
+std::vector<std::string> check_findings(const LoadedScenario& loaded);
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,146 @@
+#include "scenarios/bench/event_names.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "autopilot/types/flight_status.hpp"
+#include "autopilot/types/state_estimate.hpp"
+#include "scenarios/bench/scenario_rules.hpp"
+#include "scenarios/config/nearest_name.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+constexpr std::string_view kWaypoint = "waypoint_";
+/// A return to launch is a route of two waypoints of its own.
+constexpr std::size_t kReturnWaypoints = 2;
+
+template <class Test>
+bool any_event(const Scenario& scenario, Test test) {
+  return std::any_of(scenario.events.begin(), scenario.events.end(), test);
+}
+
+bool somebody_arms(const Scenario& scenario) {
+  return scenario.pilot.automatic ||
+         any_event(scenario, [](const EventConfig& event) { return event.pilot == PilotAction::kArm; });
+}
+
+bool asks_for(const Scenario& scenario, OperatorWish wish) {
+  return any_event(scenario, [&](const EventConfig& event) { return event.request == wish; });
+}
+
+}  // namespace
+
+std::size_t longest_route(const Scenario& scenario) {
+  std::size_t count = scenario.waypoints.size();
+  for (const EventConfig& event : scenario.events) count += event.add_waypoint ? 1 : 0;
+  return asks_for(scenario, OperatorWish::kReturnToLaunch) ? std::max(count, kReturnWaypoints) : count;
+}
+
+EventNames::EventNames(const Scenario& scenario) {
+  if (!scenario.cyclic) waypoints_ = longest_route(scenario);
+  add_flight(scenario);
+  add_waypoints(scenario);
+  add_own(scenario);
+}
+
+void EventNames::add_flight(const Scenario& scenario) {
+  for (const auto& [value, name] : enumerators(autopilot::Health{}))
+    names_.push_back({"health", std::string(name)});
+  names_.push_back({"ground", "landed"});
+  names_.push_back({"ground", "lifted_off"});
+  if (!somebody_arms(scenario)) return;
+  names_.push_back({"arming", "armed"});
+  names_.push_back({"arming", "unarmed"});
+  for (const auto& [value, name] : enumerators(autopilot::FlightPhase{}))
+    names_.push_back({"phase", std::string(name)});
+  for (const auto& [value, name] : enumerators(autopilot::PhaseCause{}))
+    names_.push_back({"cause", std::string(name)});
+  if (scenario.pilot.automatic) names_.push_back({"request", "take_off"});
+}
+
+void EventNames::add_waypoints(const Scenario& scenario) {
+  const bool ends = !scenario.cyclic || asks_for(scenario, OperatorWish::kClearRoute) ||
+                    asks_for(scenario, OperatorWish::kReturnToLaunch);
+  if (waypoints_ != std::size_t{0}) names_.push_back({"waypoint", "waypoint_1"});
+  if (ends && waypoints_ != std::size_t{0}) names_.push_back({"waypoint", "route_finished"});
+}
+
+/// An event of the scenario can happen when what it waits for can; which may be another one of them.
+void EventNames::add_own(const Scenario& scenario) {
+  for (const SnapshotConfig& snapshot : scenario.snapshots)
+    names_.push_back({"snapshot", picture_event(snapshot.name)});
+  std::vector<bool> possible(scenario.events.size(), false);
+  for (bool news = true; news;) {
+    news = false;
+    for (std::size_t i = 0; i < possible.size(); ++i) {
+      const EventConfig& event = scenario.events[i];
+      if (possible[i] || (!event.after.empty() && !known(event.after, Waiting::kDeed))) continue;
+      possible[i] = news = true;
+      add_deed(event);
+    }
+  }
+  for (std::size_t i = 0; i < possible.size(); ++i) {
+    if (!possible[i]) in_circles_.push_back(describe_event(scenario.events[i]));
+  }
+}
+
+void EventNames::add_deed(const EventConfig& event) {
+  const std::string text = describe_event(event);
+  if (event.fault) {
+    names_.push_back({"fault", text});
+    if (event.lasts > 0.0) names_.push_back({"fault_end", text});
+  } else {
+    names_.push_back({event.pilot ? "pilot" : "request", text});
+    if (!event.pilot) names_.push_back({"refused", text});
+  }
+}
+
+bool EventNames::is_waypoint(std::string_view name) const {
+  if (name.starts_with("waypoint:")) name.remove_prefix(std::string_view("waypoint:").size());
+  if (!name.starts_with(kWaypoint)) return false;
+  name.remove_prefix(kWaypoint.size());
+  std::size_t number = 0;
+  const auto read = std::from_chars(name.data(), name.data() + name.size(), number);
+  const bool is_number = read.ec == std::errc() && read.ptr == name.data() + name.size();
+  return is_number && number >= 1 && name.front() != '0' && (!waypoints_ || number <= *waypoints_);
+}
+
+bool EventNames::known(const std::string& name, Waiting waiting) const {
+  if (name.starts_with("fcu:") || name.starts_with("refused:") || is_waypoint(name)) return true;
+  return std::any_of(names_.begin(), names_.end(), [&](const Name& n) {
+    return name == n.text || (waiting == Waiting::kCheck && name == n.kind) || name == n.kind + ":" + n.text;
+  });
+}
+
+std::vector<std::string> EventNames::spoken(Waiting waiting) const {
+  std::vector<std::string> all;
+  for (const Name& name : names_) {
+    // What begins and what ends a fault have one text: with its kind the end is told from the beginning.
+    all.push_back(name.kind == "fault_end" ? name.kind + ":" + name.text : name.text);
+    if (waiting == Waiting::kCheck) all.push_back(name.kind);
+  }
+  return all;
+}
+
+std::string EventNames::complaint(const std::string& name, Waiting waiting) const {
+  if (known(name, waiting)) return "";
+  if (std::find(in_circles_.begin(), in_circles_.end(), name) != in_circles_.end())
+    return "can never happen, because what it waits for never does";
+  if (name.starts_with(kWaypoint) && waypoints_) {
+    return "there is no such event: the route " + (*waypoints_ == 0
+                                                       ? std::string("has no waypoint")
+                                                       : "ends at waypoint_" + std::to_string(*waypoints_));
+  }
+  const std::vector<std::string> names = spoken(waiting);
+  const std::string nearest = nearest_name(name, names);
+  if (!nearest.empty()) return "there is no such event; did you mean '" + nearest + "'?";
+  std::string all;
+  for (const std::string& candidate : names) {
+    if (all.find(candidate) == std::string::npos) all += (all.empty() ? "" : ", ") + candidate;
+  }
+  return "there is no such event; there are " + all;
+}
+
+}  // namespace ironbird::scenarios

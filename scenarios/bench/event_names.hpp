@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenarios/bench/scenario.hpp"
+
+namespace ironbird::scenarios {
+
+/// The most waypoints that the route of a run of this scenario can have at once.
+std::size_t longest_route(const Scenario& scenario);
+
+/// Every name by which an event of a run of this scenario can be called, known before it is flown.
+///
+/// Beside the scenario's own events these are phases, arming, health, ground contact and waypoints. What the
+/// FCU says is not known in advance: `fcu:` with any text behind it counts as known.
+class EventNames {
+ public:
+  /// Who waits: a deed of the scenario waits for a text or `kind:text`, a check may wait for a kind too.
+  enum class Waiting : std::uint8_t { kDeed, kCheck };
+
+  explicit EventNames(const Scenario& scenario);
+
+  /// Why an event of this name cannot happen, with the nearest name that can; empty when it can.
+  std::string complaint(const std::string& name, Waiting waiting) const;
+
+ private:
+  struct Name {
+    std::string kind;
+    std::string text;
+  };
+
+  void add_flight(const Scenario& scenario);
+  void add_waypoints(const Scenario& scenario);
+  void add_own(const Scenario& scenario);
+  void add_deed(const EventConfig& event);
+  bool is_waypoint(std::string_view name) const;
+  bool known(const std::string& name, Waiting waiting) const;
+  std::vector<std::string> spoken(Waiting waiting) const;
+
+  std::vector<Name> names_;
+  std::vector<std::string> in_circles_;   ///< of events that wait, in the end, for themselves
+  std::optional<std::size_t> waypoints_;  ///< that can be reached; nothing: a cyclic route goes on for ever
+};
+
+}  // namespace ironbird::scenarios

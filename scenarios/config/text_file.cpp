@@ -1,0 +1,62 @@
+#include "scenarios/config/text_file.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+#include "scenarios/config/config_error.hpp"
+#include "scenarios/config/nearest_name.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file beside `file` whose name is nearest to its own, or nothing.
+std::string neighbour(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (at->path().extension() == ".toml") names.push_back(at->path().stem().string());
+  }
+  std::sort(names.begin(), names.end());  // a folder has no order of its own
+  const std::string nearest = nearest_name(file.stem().string(), names);
+  return nearest.empty() ? "" : (file.parent_path() / (nearest + ".toml")).string();
+}
+
+/// Why the file cannot be taken, or nothing.
+std::string complaint(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) {
+    const std::string nearest = neighbour(file);
+    return "cannot be opened: there is no such file" +
+           (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+  }
+  if (error) return "cannot be opened: " + error.message();
+  if (fs::is_directory(status)) return "is a folder, must be a TOML file";
+  if (!fs::is_regular_file(status)) return "is no regular file, must be a TOML file";
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) return "cannot be opened: " + error.message();
+  if (size <= kMostConfigBytes) return "";
+  return "has " + std::to_string(size) + " bytes, a configuration has at most " +
+         std::to_string(kMostConfigBytes);
+}
+
+}  // namespace
+
+std::string read_config_text(const fs::path& file, const std::string& asked_by) {
+  const std::string wrong = complaint(file);
+  if (!wrong.empty()) throw ConfigError(asked_by + file.string() + ": " + wrong);
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
+  if (stream.bad() || !stream.is_open())
+    throw ConfigError(asked_by + file.string() + ": cannot be read; look at its permissions");
+  return text.str();
+}
+
+}  // namespace ironbird::scenarios
