@@ -18,7 +18,8 @@ using autopilot::AutopilotConfig;
 
 constexpr Time kTick = std::chrono::microseconds(2500);
 
-/// Tells in its estimate which frame it was given: the IMU's stamp, and in p_N the pressure, if there was one.
+/// Tells in its estimate which frame it was given: the IMU's stamp, and in p_N the pressure, if there was
+/// one.
 class TellingEstimator final : public autopilot::Estimator {
  protected:
   autopilot::StateEstimate estimate(const autopilot::SensorFrame& frame, double) override {
@@ -144,7 +145,8 @@ TEST_F(LockstepTest, SaysThatItLivesEverySecondInTheVersionOfTheDialect) {
 }
 
 TEST_F(LockstepTest, AnswersEveryFrameOfABurstInOrder) {
-  for (const int k : {1, 2, 3, 4}) fcu.line.push_back({4 * kTick, imu_of_tick(static_cast<std::uint64_t>(k))});
+  for (const int k : {1, 2, 3, 4})
+    fcu.line.push_back({4 * kTick, imu_of_tick(static_cast<std::uint64_t>(k))});
   tick(3);
   EXPECT_EQ(lockstep.frames(), 0U);
   EXPECT_FALSE(lockstep.stepped());
@@ -187,7 +189,9 @@ TEST_F(LockstepTest, CarriesASlowSampleOverATickIntoTheNextFrameAndNoOther) {
 }
 
 TEST_F(LockstepTest, KeepsTheLatestTelemetryAndTheTextsOfTheLastTickOnly) {
-  const auto text = [](std::uint8_t severity) { return rosflight::Statustext{.severity = severity, .text = {}}; };
+  const auto text = [](std::uint8_t severity) {
+    return rosflight::Statustext{.severity = severity, .text = {}};
+  };
   fcu.line = {{kTick, text(3)},
               {kTick, rosflight::RosflightStatus{.armed = 1}},
               {kTick, text(6)},

@@ -54,19 +54,16 @@ TEST_F(ParameterEffectTest, RebuildsTheControllerWithTheDensityOfTheDayForTheseO
   fcu.board().baro = PressureInput{80000.0F, 290.0F};
   fcu.pass();
   const float density = 1.225F * std::pow(80000.0F / 101325.0F, 0.8097369F);
-  for (const Row row : {Row{"PID_ROLL_RATE_P", true},   Row{"PID_ROLL_RATE_I", true},
-                        Row{"PID_ROLL_RATE_D", true},   Row{"PID_PITCH_RATE_P", true},
-                        Row{"PID_YAW_RATE_D", true},    Row{"PID_ROLL_ANG_P", true},
-                        Row{"PID_PITCH_ANG_P", true},   Row{"PID_PITCH_ANG_I", true},
-                        Row{"PID_PITCH_ANG_D", true},   Row{"PID_TAU", true},
-                        Row{"MOTOR_RESISTANCE", true},  Row{"MOTOR_KV", true},
-                        Row{"NO_LOAD_CURRENT", true},   Row{"PROP_DIAMETER", true},
-                        Row{"PROP_CT", true},           Row{"BATT_VOLT_MAX", true},
-                        Row{"NUM_MOTORS", true},        Row{"RC_MAX_THR", true},
-                        Row{"PROP_CQ", false},          Row{"X_EQ_TORQUE", false},
-                        Row{"MOTOR_IDLE_THR", false},   Row{"FAILSAFE_THR", false},
-                        Row{"USE_MOTOR_PARAM", false},  Row{"BATT_VOLT_MULT", false},
-                        Row{"RC_MAX_ROLLRATE", false}}) {
+  for (const Row row :
+       {Row{"PID_ROLL_RATE_P", true},  Row{"PID_ROLL_RATE_I", true},  Row{"PID_ROLL_RATE_D", true},
+        Row{"PID_PITCH_RATE_P", true}, Row{"PID_YAW_RATE_D", true},   Row{"PID_ROLL_ANG_P", true},
+        Row{"PID_PITCH_ANG_P", true},  Row{"PID_PITCH_ANG_I", true},  Row{"PID_PITCH_ANG_D", true},
+        Row{"PID_TAU", true},          Row{"MOTOR_RESISTANCE", true}, Row{"MOTOR_KV", true},
+        Row{"NO_LOAD_CURRENT", true},  Row{"PROP_DIAMETER", true},    Row{"PROP_CT", true},
+        Row{"BATT_VOLT_MAX", true},    Row{"NUM_MOTORS", true},       Row{"RC_MAX_THR", true},
+        Row{"PROP_CQ", false},         Row{"X_EQ_TORQUE", false},     Row{"MOTOR_IDLE_THR", false},
+        Row{"FAILSAFE_THR", false},    Row{"USE_MOTOR_PARAM", false}, Row{"BATT_VOLT_MULT", false},
+        Row{"RC_MAX_ROLLRATE", false}}) {
     FakeBoard fresh(armable());
     fresh.board().baro = PressureInput{80000.0F, 290.0F};
     fresh.pass();
@@ -74,9 +71,10 @@ TEST_F(ParameterEffectTest, RebuildsTheControllerWithTheDensityOfTheDayForTheseO
     const ParameterId id = find_parameter(row.name);
     const ParameterStore& parameters = fresh.firmware().parameters();
     const bool is_real = kParameterTable[id.index].type == ParameterType::kReal;
-    const std::uint32_t bits = is_real ? bits_of(parameters.real(id) * 1.02F + 1e-4F)
-                                       : bits_of(parameters.integer(id) + 1);
-    fresh.deliver(ParamSet{bits, 1, 0, kParameterTable[id.index].name, is_real ? std::uint8_t{9} : std::uint8_t{6}});
+    const std::uint32_t bits =
+        is_real ? bits_of(parameters.real(id) * 1.02F + 1e-4F) : bits_of(parameters.integer(id) + 1);
+    fresh.deliver(
+        ParamSet{bits, 1, 0, kParameterTable[id.index].name, is_real ? std::uint8_t{9} : std::uint8_t{6}});
     ASSERT_EQ(parameters.bits(id), bits) << row.name;
     const float wanted = row.rebuilds ? maximum_thrust(parameters, density) : boot;
     EXPECT_NEAR(fresh.firmware().controller().maximum_thrust(), wanted, 1e-3F) << row.name;
@@ -90,16 +88,17 @@ TEST_F(ParameterEffectTest, RebuildsTheMixerForTheseOnly) {
     int value;
     bool rebuilds;
   };
-  for (const Row row : {Row{"PRIMARY_MIXER", 1, true}, Row{"SECONDARY_MIXER", 1, true},
-                        Row{"USE_MOTOR_PARAM", 1, true}, Row{"RC_F_AXIS", 1, true},
-                        Row{"NUM_MOTORS", 6, false}, Row{"FIXED_WING", 1, false}, Row{"REV_RUDDER", 1, false},
-                        Row{"ARM_SPIN_MOTORS", 0, false}, Row{"PRI_MIXER_OUT_6", 2, false}}) {
-    set("PRIMARY_MIXER", 2);
-    set("PRI_MIXER_2_0", -0.3F);
-    set(row.name, row.value);
-    EXPECT_EQ(real("PRI_MIXER_2_0") == -0.3F, !row.rebuilds) << row.name << ": a canned mixer is written anew";
-    set(row.name, fcu.firmware().parameters().integer(find_parameter(row.name)) == 255 ? 1 : 0);
-    set("SECONDARY_MIXER", 255);
+  for (const Row row :
+       {Row{"PRIMARY_MIXER", 1, true}, Row{"SECONDARY_MIXER", 1, true}, Row{"USE_MOTOR_PARAM", 1, true},
+        Row{"RC_F_AXIS", 1, true}, Row{"NUM_MOTORS", 6, false}, Row{"FIXED_WING", 1, false},
+        Row{"REV_RUDDER", 1, false}, Row{"ARM_SPIN_MOTORS", 0, false}, Row{"PRI_MIXER_OUT_6", 2, false}}) {
+    FakeBoard fresh(armable());
+    fresh.deliver(ParamSet{bits_of(-0.3F), 1, 0, name_field("PRI_MIXER_2_0"), 9});
+    fresh.deliver(ParamSet{bits_of(row.value), 1, 0, name_field(row.name), 6});
+    const ParameterStore& parameters = fresh.firmware().parameters();
+    ASSERT_EQ(parameters.integer(find_parameter(row.name)), row.value);
+    const bool edited = parameters.real(primary_element(2, 0)) == -0.3F;
+    EXPECT_EQ(edited, !row.rebuilds) << row.name << ": a rebuilt canned mixer is written anew";
   }
 }
 

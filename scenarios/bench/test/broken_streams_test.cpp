@@ -60,7 +60,8 @@ class SpoiledFcu final : public hil_bridge::Fcu {
     for (Arrival& arrival : fresh_) {
       if (spoil != nullptr && is_meant(arrival.message)) {
         if (spoil->silent) continue;
-        std::visit([&](auto& message) { message.describe(message, Overwrite{spoil->value}); }, arrival.message);
+        std::visit([&](auto& message) { message.describe(message, Overwrite{spoil->value}); },
+                   arrival.message);
       }
       out.push_back(arrival);
     }
@@ -182,11 +183,10 @@ std::vector<Case> all_cases() {
                                                     {"InTheClimb", Moment::kTakeOff},
                                                     {"Offboard", Moment::kOffboard},
                                                     {"InTheLanding", Moment::kLanding}};
-  const std::pair<const char*, Stream> streams[] = {{"Imu", Stream::kImu},       {"Mag", Stream::kMag},
-                                                    {"Baro", Stream::kBaro},     {"Gnss", Stream::kGnss},
-                                                    {"Status", Stream::kStatus}, {"Battery", Stream::kBattery}};
-  const std::pair<const char*, double> gaps[] = {
-      {"50ms", 0.05}, {"500ms", 0.5}, {"5s", 5.0}, {"60s", 60.0}};
+  const std::pair<const char*, Stream> streams[] = {
+      {"Imu", Stream::kImu},   {"Mag", Stream::kMag},       {"Baro", Stream::kBaro},
+      {"Gnss", Stream::kGnss}, {"Status", Stream::kStatus}, {"Battery", Stream::kBattery}};
+  const std::pair<const char*, double> gaps[] = {{"50ms", 0.05}, {"500ms", 0.5}, {"5s", 5.0}, {"60s", 60.0}};
   const std::pair<const char*, float> values[] = {{"NaN", std::numeric_limits<float>::quiet_NaN()},
                                                   {"Infinity", std::numeric_limits<float>::infinity()},
                                                   {"Huge", 1e30F}};
@@ -194,9 +194,11 @@ std::vector<Case> all_cases() {
   for (const auto& [when, moment] : moments) {
     for (const auto& [which, stream] : streams) {
       const std::string name = std::string(which) + when;
-      for (const auto& [how, lasts] : gaps) cases.push_back({name + "Gap" + how, moment, {stream, true, 0.0F, lasts}});
+      for (const auto& [how, lasts] : gaps)
+        cases.push_back({name + "Gap" + how, moment, {stream, true, 0.0F, lasts}});
       if (stream == Stream::kStatus) continue;  // carries no such number
-      for (const auto& [how, value] : values) cases.push_back({name + how, moment, {stream, false, value, 3.0}});
+      for (const auto& [how, value] : values)
+        cases.push_back({name + how, moment, {stream, false, value, 3.0}});
     }
   }
   return cases;

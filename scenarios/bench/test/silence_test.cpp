@@ -74,7 +74,8 @@ TEST_F(SilenceTest, RecordsTheTruthAtItsPeriodWhileTheImuIsSilent) {
 TEST_F(SilenceTest, RefusesAnEstimatorThatNothingFeeds) {
   const Overrides on_poses{{{"autopilot.estimator.kind", "external_pose"}}, {}};
   EXPECT_THAT(finding(quiet_, on_poses), HasSubstr("autopilot.estimator.kind = \"external_pose\""));
-  const std::string swap = quiet_ + "[[event]]\nat = \"3 s\"\nswap = \"estimator\"\nkind = \"external_pose\"\n";
+  const std::string swap =
+      quiet_ + "[[event]]\nat = \"3 s\"\nswap = \"estimator\"\nkind = \"external_pose\"\n";
   EXPECT_THAT(finding(swap), HasSubstr("event[1].kind = \"external_pose\": flies on poses from outside"));
   EXPECT_EQ(finding(quiet_), "no finding");
 }
