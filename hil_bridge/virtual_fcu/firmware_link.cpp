@@ -141,7 +141,7 @@ void Firmware::on(const rosflight::ParamSet& request) {
   const ParameterId id = find_parameter(name_of(request.param_id));
   if (id.index == kParameterCount) return;
   if (static_cast<std::uint8_t>(kParameterTable[id.index].type) != request.param_type) return;
-  parameters_.set_bits(id, request.param_value);
+  parameters_.set_bits(id, request.param_value.bits);
 }
 
 void Firmware::on(const rosflight::Timesync& request) {

@@ -46,7 +46,7 @@ void Telemetry::release_text() {
 void Telemetry::send_parameter(const ParameterStore& parameters, ParameterId id) {
   if (!listened()) return;
   const ParameterInfo& info = kParameterTable[id.index];
-  send(rosflight::ParamValue{.param_value = parameters.bits(id),
+  send(rosflight::ParamValue{.param_value = {parameters.bits(id)},
                              .param_count = kParameterCount,
                              .param_index = id.index,
                              .param_id = info.name,

@@ -66,6 +66,16 @@ TEST_F(CommandMuxTest, GivesTheCompanionFullAuthorityWithAFreshCommandAndCentred
   }
 }
 
+TEST_F(CommandMuxTest, CallsItOffboardForForcesAndTorquesOnly) {
+  command(0, kForces, 0x03F);
+  update();
+  EXPECT_FALSE(mux.offboard()) << "free inputs do not count";
+  for (int i = 0; i < 6; ++i) {
+    command(0, kForces, static_cast<std::uint16_t>(0x3FF & ~(1U << i)));
+    EXPECT_TRUE(mux.offboard()) << i;
+  }
+}
+
 struct ModeCase {
   std::uint8_t mode;
   ChannelKind force;
@@ -258,6 +268,7 @@ TEST_F(CommandMuxTest, FliesLevelWithTheFailsafeThrottle) {
   EXPECT_EQ(mux.combined().u[kPitch].kind, ChannelKind::kAngle);
   EXPECT_EQ(mux.combined().u[kYaw].kind, ChannelKind::kRate);
   for (std::size_t i : {0U, 1U, 3U, 4U, 5U}) EXPECT_EQ(mux.combined().u[i].value, 0.0F);
+  for (const Channel& channel : mux.combined().u) EXPECT_TRUE(channel.active);
 }
 
 TEST_F(CommandMuxTest, LetsAWingsFailsafePassZerosThrough) {

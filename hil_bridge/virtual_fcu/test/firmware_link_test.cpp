@@ -49,7 +49,7 @@ TEST_F(LinkTest, AnswersASetWithTheNewValue) {
   EXPECT_EQ(answers()[0].param_index, 2);
   EXPECT_EQ(answers()[0].param_count, 333);
   EXPECT_EQ(answers()[0].param_type, 6);
-  EXPECT_EQ(answers()[0].param_value, 6U);
+  EXPECT_EQ(answers()[0].param_value.bits, 6U);
 }
 
 TEST_F(LinkTest, KeepsSilentForASetThatChangesNothingOrMakesNoSense) {

@@ -92,13 +92,13 @@ TEST_F(ParameterEffectTest, RebuildsTheMixerForTheseOnly) {
        {Row{"PRIMARY_MIXER", 1, true}, Row{"SECONDARY_MIXER", 1, true}, Row{"USE_MOTOR_PARAM", 1, true},
         Row{"RC_F_AXIS", 1, true}, Row{"NUM_MOTORS", 6, false}, Row{"FIXED_WING", 1, false},
         Row{"REV_RUDDER", 1, false}, Row{"ARM_SPIN_MOTORS", 0, false}, Row{"PRI_MIXER_OUT_6", 2, false}}) {
-    set("PRIMARY_MIXER", 2);
-    set("PRI_MIXER_2_0", -0.3F);
-    set(row.name, row.value);
-    EXPECT_EQ(real("PRI_MIXER_2_0") == -0.3F, !row.rebuilds)
-        << row.name << ": a canned mixer is written anew";
-    set(row.name, fcu.firmware().parameters().integer(find_parameter(row.name)) == 255 ? 1 : 0);
-    set("SECONDARY_MIXER", 255);
+    FakeBoard fresh(armable());
+    fresh.deliver(ParamSet{bits_of(-0.3F), 1, 0, name_field("PRI_MIXER_2_0"), 9});
+    fresh.deliver(ParamSet{bits_of(row.value), 1, 0, name_field(row.name), 6});
+    const ParameterStore& parameters = fresh.firmware().parameters();
+    ASSERT_EQ(parameters.integer(find_parameter(row.name)), row.value);
+    const bool edited = parameters.real(primary_element(2, 0)) == -0.3F;
+    EXPECT_EQ(edited, !row.rebuilds) << row.name << ": a rebuilt canned mixer is written anew";
   }
 }
 
