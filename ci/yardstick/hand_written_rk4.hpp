@@ -6,9 +6,9 @@
 
 namespace ironbird::yardstick {
 
-/// What a quadrotor costs that somebody writes down for itself: pose, velocities and four lagged rotors in one
-/// array of seventeen numbers, linear drag, the classical fourth-order scheme. No library, no parameters, no
-/// use but to be timed.
+/// What a quadrotor costs that somebody writes down for itself: pose, velocities and four lagged rotors in
+/// one array of seventeen numbers, linear drag, the classical fourth-order scheme. No library, no parameters,
+/// no use but to be timed.
 class HandWrittenRk4 {
  public:
   using State = std::array<double, 17>;  // p_N, v_N, q (w, x, y, z), w_B, rotor speeds
@@ -29,14 +29,14 @@ class HandWrittenRk4 {
   const State& state() const { return x_; }
 
  private:
-  static constexpr double kHover = 500.0;              // rad/s
-  static constexpr double kMass = 3.5;                 // kg
-  static constexpr double kGravity = 9.81;             // m/s^2
+  static constexpr double kHover = 500.0;   // rad/s
+  static constexpr double kMass = 3.5;      // kg
+  static constexpr double kGravity = 9.81;  // m/s^2
   static constexpr double kThrust = kMass * kGravity / (4.0 * kHover * kHover);
   static constexpr double kTorque = 0.02 * kThrust;
-  static constexpr double kArm = 0.2;                  // m
-  static constexpr double kLag = 0.03;                 // s
-  static constexpr double kDrag = 0.3;                 // N per m/s
+  static constexpr double kArm = 0.2;   // m
+  static constexpr double kLag = 0.03;  // s
+  static constexpr double kDrag = 0.3;  // N per m/s
   static constexpr std::array<double, 3> kInertia = {0.08, 0.08, 0.12};
 
   State moved(const State& k, double dt) const {

@@ -30,9 +30,9 @@ struct Turns {
   double pieces = 1.0;  ///< of work in one call, of either; the times are of one piece
 };
 
-/// Lets `ours` and `yardstick` take turns, so that what loads the machine loads both. The counters are medians
-/// over the rounds: `ns` and `yardstick_ns` of one piece, `ratio` of each round's two. To be registered with
-/// UseManualTime().
+/// Lets `ours` and `yardstick` take turns, so that what loads the machine loads both. The counters are
+/// medians over the rounds: `ns` and `yardstick_ns` of one piece, `ratio` of each round's two. To be
+/// registered with UseManualTime().
 /// @param prepare  called before each round, not timed
 template <class Ours, class Yardstick, class Prepare>
 void in_turns(benchmark::State& state, const Turns& turns, Ours&& ours, Yardstick&& yardstick,
@@ -66,7 +66,8 @@ void beside_rk4(benchmark::State& state, double goal, Ours&& ours) {
   constexpr int kBatch = 400;       // calls, so that the clock's own cost does not count
   constexpr double kTick = 2.5e-3;  // s
   HandWrittenRk4 rk4;
-  in_turns(state, {.goal = goal, .batch = kBatch}, ours, [&] { rk4.step(kTick); }, [] {});
+  in_turns(
+      state, {.goal = goal, .batch = kBatch}, ours, [&] { rk4.step(kTick); }, [] {});
   benchmark::DoNotOptimize(rk4.state().data());
 }
 
