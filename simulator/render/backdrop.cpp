@@ -60,8 +60,8 @@ struct Backdrop::Row {
   double haze = 0.0;
 };
 
-Backdrop::Backdrop(const Vector3& ground_color, GroundMarks marks)
-    : ground_color_(255.0 * ground_color), marks_(std::move(marks)) {}
+Backdrop::Backdrop(const Vector3& ground_color, GroundMarks marks, bool quick_marks)
+    : ground_color_(255.0 * ground_color), marks_(std::move(marks)), quick_marks_(quick_marks) {}
 
 void Backdrop::draw(const Projection& projection, const std::vector<const ShadowMap*>& shadows,
                     Image& image) const {
@@ -165,7 +165,8 @@ void Backdrop::paint_marks(const Row& row, Pixel* pixels, int width) const {
                                     row.east_step, half, width);
   const double lateral = std::hypot(row.north_step, row.east_step);
   const double reach = std::hypot(row.north_reach, row.east_reach);
-  const int samples = std::clamp(static_cast<int>(std::lround(reach / lateral)), 1, 3);
+  const int aslant = std::clamp(static_cast<int>(std::lround(reach / lateral)), 1, 3);
+  const int samples = quick_marks_ ? 1 : aslant;
   const GroundMarks::Sampler marks = marks_.sampler(static_cast<float>(std::max(lateral, reach / samples)));
   const float share = 1.0F / static_cast<float>(samples);
   const float haze = static_cast<float>(row.haze);

@@ -18,7 +18,9 @@ namespace ironbird::simulator {
 class Backdrop {
  public:
   /// @param ground_color  red, green, blue, 0..1
-  Backdrop(const Vector3& ground_color, GroundMarks marks);
+  /// @param quick_marks  one look at the marks for a pixel that sees them aslant, instead of up to three:
+  /// they blur along the line of sight
+  Backdrop(const Vector3& ground_color, GroundMarks marks, bool quick_marks);
 
   /// Fills the picture.
   /// @param shadows  applied one after the other
@@ -33,6 +35,7 @@ class Backdrop {
 
   Vector3 ground_color_;
   GroundMarks marks_;
+  bool quick_marks_;
 };
 
 }  // namespace ironbird::simulator

@@ -19,7 +19,7 @@ const Paint kRed(226.0F, 66.0F, 36.0F, 1.0F);
 
 // x east, y north, in radii of the pad.
 Paint helipad_paint(double x, double y) {
-  const double r = std::hypot(x, y);
+  const double r = std::sqrt(x * x + y * y);
   if (r > 1.0) {
     return Paint::Zero();
   }
@@ -47,25 +47,31 @@ Paint faded(const Paint& paint, double opacity) {
 
 // x east, y north, in radii of the rose.
 Paint rose_paint(double x, double y, const GlyphAtlas& letters) {
-  const double r = std::hypot(x, y);
-  const double bearing = std::atan2(x, y);
+  const double r = std::sqrt(x * x + y * y);
   if (std::abs(r - 0.985) < 0.012) {
     return faded(kWhite, 0.8);
   }
-  const double tick = std::remainder(bearing, std::numbers::pi / 18.0) * r;
-  const bool long_tick = std::abs(std::remainder(bearing, std::numbers::pi / 6.0) * r) < 0.011;
-  if (r < 0.985 && ((std::abs(tick) < 0.006 && r > 0.935) || (long_tick && r > 0.89))) {
-    return faded(kWhite, 0.8);
+  if (r < 0.985 && r > 0.89) {
+    const double bearing = std::atan2(x, y);
+    const double tick = std::remainder(bearing, std::numbers::pi / 18.0) * r;
+    const bool long_tick = std::abs(std::remainder(bearing, std::numbers::pi / 6.0) * r) < 0.011;
+    if ((std::abs(tick) < 0.006 && r > 0.935) || long_tick) {
+      return faded(kWhite, 0.8);
+    }
   }
-  constexpr std::array<char, 4> kLetters{'N', 'E', 'S', 'W'};
+  struct Letter {
+    char glyph;
+    double east;
+    double north;
+  };
+  constexpr std::array<Letter, 4> kLetters{
+      {{'N', 0.0, 0.72}, {'E', 0.72, 0.0}, {'S', 0.0, -0.72}, {'W', -0.72, 0.0}}};
   const double texels = letters.cap_height() / 0.20;  // letters a fifth of the radius high
-  for (std::size_t i = 0; i < kLetters.size(); ++i) {
-    const double angle = static_cast<double>(i) * std::numbers::pi / 2.0;
-    const double east = x - 0.72 * std::sin(angle);
-    const double north = y - 0.72 * std::cos(angle);
-    const double ink = glyph_coverage(letters, kLetters[i], east * texels, -north * texels);
+  for (const Letter& letter : kLetters) {
+    const double ink =
+        glyph_coverage(letters, letter.glyph, (x - letter.east) * texels, -(y - letter.north) * texels);
     if (ink > 0.0) {
-      return faded(i == 0 ? kRed : kWhite, ink);
+      return faded(letter.glyph == 'N' ? kRed : kWhite, ink);
     }
   }
   // The arrow at north, outside the ring of letters.

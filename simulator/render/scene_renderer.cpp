@@ -126,7 +126,8 @@ struct SceneRenderer::Parts {
         letters(solids, std::max(5, static_cast<int>(std::lround(17.0 * scale)))),
         small_letters(solids, std::max(5, static_cast<int>(std::lround(13.0 * scale)))),
         backdrop(solids.ground_color(),
-                 GroundMarks(solids.helipad(), solids.compass_rose(), GlyphAtlas(solids, 40))) {
+                 GroundMarks(solids.helipad(), solids.compass_rose(), GlyphAtlas(solids, 40)),
+                 p.quality == Quality::kPreview) {
     if (solids.obstacles().radius > 0.0) {
       solids.pose(RenderSample{}, kBlurSpeed);
       field_shadow =
