@@ -82,8 +82,8 @@ void ErrorStateFilter::start_heading(const Vector3& m_B, const Vector3& down_B) 
   const Eigen::Matrix<double, ErrorState::kSize, 3> columns =
       P_.middleCols<3>(kT).lazyProduct(attitude_from_tilt.transpose()) +
       P_.middleCols<3>(kM).lazyProduct(attitude_from_bias.transpose());
-  const Matrix3 attitude = attitude_from_tilt * columns.middleRows<3>(kT) +
-                           attitude_from_bias * columns.middleRows<3>(kM);
+  const Matrix3 attitude =
+      attitude_from_tilt * columns.middleRows<3>(kT) + attitude_from_bias * columns.middleRows<3>(kM);
   P_.middleCols<3>(kT) = columns;
   P_.middleRows<3>(kT) = columns.transpose();
   P_.block<3, 3>(kT, kT) = 0.5 * (attitude + attitude.transpose());
@@ -145,7 +145,8 @@ void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
                                  P_.middleCols<3>(kM).lazyProduct(model.H_bias.transpose());
   const double CPCt = model.H_attitude.dot(PCt.segment<3>(kT)) + model.H_bias.dot(PCt.segment<3>(kM));
   innovations_.heading = innovation;
-  const Verdict verdict = mag_gate().judge(square(innovation) / (CPCt + R), wanted.gate, wanted.persistence, now);
+  const Verdict verdict =
+      mag_gate().judge(square(innovation) / (CPCt + R), wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
     x_.q_NB = (Quaternion(Eigen::AngleAxisd(innovation, Vector3::UnitZ())) * x_.q_NB).normalized();

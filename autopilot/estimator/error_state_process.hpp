@@ -29,8 +29,8 @@ ErrorState error_state_propagate(const ErrorState& x, const EkfInput& u, const W
                                  Matrix3& R_mid);
 
 /// The blocks of the error's transition over one step that are neither zero nor multiples of identity. First
-/// letter: row, second: column; p, v, t (attitude), g (gyro bias, misalignment, scale), a (accelerometer bias).
-/// The block (p, v) is h times identity, the walks are multiplied by their decay.
+/// letter: row, second: column; p, v, t (attitude), g (gyro bias, misalignment, scale), a (accelerometer
+/// bias). The block (p, v) is h times identity, the walks are multiplied by their decay.
 struct ErrorTransition {
   using GyroBlock = Eigen::Matrix<double, 3, 9>;
 
