@@ -143,6 +143,7 @@ void Alignment::find_at_rest(const AidingParams& params) {
   start_.origin.altitude = w.first_fix.altitude + w.altitude_sum / w.fixes;
   start_.q_NB =
       attitude_from_vectors(f_mean_B, Vector3::Zero(), w.m_sum_B, params.mag.declination, params.gravity);
+  start_.m_B = w.m_sum_B.normalized();
   start_.gyro_bias_B = w.w_first_B + w.w_sum_B / w.imu;
   if (params.alignment.remove_accelerometer_offset) {
     start_.accelerometer_offset_B = (f_mean_B.norm() - params.gravity) * f_mean_B.normalized();
@@ -164,6 +165,7 @@ void Alignment::find_in_motion(const AidingParams& params, Time now) {
   const Quaternion q_N_begin =
       attitude_from_vectors(w.f_sum_begin, a_N, w.m_sum_begin, params.mag.declination, params.gravity);
   start_.q_NB = q_N_begin * w.turned;
+  start_.m_B = w.turned.conjugate() * w.m_sum_begin.normalized();
   const double age = std::clamp(seconds(now - w.last_fix.stamp), 0.0, 1.0);
   start_.v_NB_N = w.last_fix.v_NB_N + a_N * age;
   const Vector2 p_N = local_from_geodetic(w.last_fix.latitude, w.last_fix.longitude, start_.origin);

@@ -29,6 +29,7 @@ struct StartState {
   Quaternion q_NB = Quaternion::Identity();
   Vector3 gyro_bias_B = Vector3::Zero();
   Vector3 accelerometer_offset_B = Vector3::Zero();
+  Vector3 m_B = Vector3::Zero();
   double origin_pressure = 101325.0;
   bool moving = false;
 
@@ -41,6 +42,7 @@ struct StartState {
     visit("gyro_bias_B", self.gyro_bias_B, "rad/s", "mean rate at rest; 0 in motion");
     visit("accelerometer_offset_B", self.accelerometer_offset_B, "m/s^2",
           "part of the accelerometer's bias along gravity; 0 in motion");
+    visit("m_B", self.m_B, "1", "unit vector of the field that the heading is from; 0: it is from elsewhere");
     visit("origin_pressure", self.origin_pressure, "Pa", "static pressure at height 0");
     visit("moving", self.moving, "1", "the vehicle was not at rest");
   }

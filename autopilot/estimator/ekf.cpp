@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include "autopilot/estimator/covariance.hpp"
 #include "autopilot/estimator/ekf_measurements.hpp"
 #include "autopilot/estimator/scalar_update.hpp"
 #include "autopilot/math/angles.hpp"
@@ -21,14 +22,6 @@ constexpr int kT = EkfState::kAttitude;
 constexpr int kPitch = EkfState::kAttitude + 1;
 constexpr int kHeading = EkfState::kHeading;
 constexpr int kB = EkfState::kGyroBias;
-
-double square(double a) {
-  return a * a;
-}
-
-Vector3 root_of(const Vector3& variances) {
-  return variances.cwiseMax(0.0).cwiseSqrt();
-}
 
 }  // namespace
 
@@ -102,12 +95,6 @@ void Ekf::apply(const EkfState::Vector& correction) {
   set_attitude(x_.theta + correction.segment<3>(kT));
 }
 
-void Ekf::forget(int first, int size, double variance) {
-  P_.middleRows(first, size).setZero();
-  P_.middleCols(first, size).setZero();
-  P_.diagonal().segment(first, size).setConstant(variance);
-}
-
 void Ekf::correct_mag(const Vector3& m_B, Time now) {
   const MagParams& wanted = aiding().mag;
   const double heading = ekf_mag(m_B, trig_, wanted.declination).y;
@@ -121,7 +108,7 @@ void Ekf::correct_mag(const Vector3& m_B, Time now) {
   const Verdict verdict = mag_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
-    forget(kHeading, 1, R);
+    decorrelate(P_, kHeading, 1, R);
     set_attitude({x_.theta.x(), x_.theta.y(), heading});
     return;
   }
@@ -140,7 +127,7 @@ void Ekf::correct_baro(double difference, Time now) {
   const Verdict verdict = baro_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
-    forget(kDown, 1, R / square(C));
+    decorrelate(P_, kDown, 1, R / square(C));
     x_.p_NB_N.z() += innovation / C;
     return;
   }
@@ -169,7 +156,7 @@ void Ekf::fuse_velocity(const GnssObservation& fix, Time now, Update& update) {
       update.fuse_block<6>(P_, fix.dv_N(axis), model.C.row(axis), kV, fix.variance_v(axis));
     }
   } else if (verdict == Verdict::kReset) {
-    forget(kV, 3, fix.variance_v.maxCoeff());
+    decorrelate(P_, kV, 3, fix.variance_v.maxCoeff());
     x_.v_NB_B += model.C.leftCols<3>().transpose() * fix.dv_N;
   }
 }
@@ -186,7 +173,7 @@ void Ekf::fuse_position(const GnssObservation& fix, Time now, Update& update) {
       update.fuse_component(P_, fix.dp_N(axis), kP + axis, 1.0, fix.variance_p(axis));
     }
   } else if (verdict == Verdict::kReset) {
-    forget(kP, 2, fix.variance_p.x());
+    decorrelate(P_, kP, 2, fix.variance_p.x());
     update.correction.segment<2>(kP) = fix.dp_N.head<2>();
   }
 }

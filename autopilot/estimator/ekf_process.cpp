@@ -1,5 +1,7 @@
 #include "autopilot/estimator/ekf_process.hpp"
 
+#include "autopilot/estimator/covariance.hpp"
+
 namespace ironbird::autopilot {
 
 namespace {
@@ -8,13 +10,6 @@ constexpr int kP = EkfState::kPosition;
 constexpr int kV = EkfState::kVelocity;
 constexpr int kT = EkfState::kAttitude;
 constexpr int kB = EkfState::kGyroBias;
-
-/// Copies the upper triangle into the lower one.
-void mirror(EkfState::Matrix& P) {
-  for (int column = 0; column < EkfState::kSize; ++column) {
-    for (int row = column + 1; row < EkfState::kSize; ++row) P(row, column) = P(column, row);
-  }
-}
 
 }  // namespace
 
@@ -114,7 +109,7 @@ void ekf_propagate_covariance(EkfState::Matrix& P, const EkfTransition& F) {
                           M.block<6, 3>(kP, kB).lazyProduct(vb);
   P.block<9, 3>(kP, kT) = M.block<9, 3>(kP, kT).lazyProduct(tt) + M.block<9, 3>(kP, kB).lazyProduct(tb);
   P.block<9, 3>(kP, kB) = M.block<9, 3>(kP, kB);
-  mirror(P);
+  mirror_upper(P);
 }
 
 void ekf_add_noise(EkfState::Matrix& P, const EkfState& x, const EulerTrig& at, const EkfStepNoise& noise) {

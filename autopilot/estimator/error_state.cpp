@@ -36,17 +36,21 @@ ErrorState ErrorState::plus(const Vector& error) const {
   x.v_NB_N += error.segment<3>(kVelocity);
   x.q_NB = (q_NB * exponential(error.segment<3>(kAttitude))).normalized();
   x.gyro_bias_B += error.segment<3>(kGyroBias);
+  x.gyro_misalignment_B += error.segment<3>(kGyroMisalignment);
+  x.gyro_scale_B += error.segment<3>(kGyroScale);
   x.accelerometer_bias_B += error.segment<3>(kAccelerometerBias);
   x.gnss_walk_N += error.segment<3>(kGnssWalk);
   x.baro_walk += error(kBaroWalk);
+  x.mag_bias_B += error.segment<3>(kMagBias);
   return x;
 }
 
 ErrorState::Vector ErrorState::minus(const ErrorState& estimate) const {
   Vector error;
   error << p_NB_N - estimate.p_NB_N, v_NB_N - estimate.v_NB_N, logarithm(estimate.q_NB.conjugate() * q_NB),
-      gyro_bias_B - estimate.gyro_bias_B, accelerometer_bias_B - estimate.accelerometer_bias_B,
-      gnss_walk_N - estimate.gnss_walk_N, baro_walk - estimate.baro_walk;
+      gyro_bias_B - estimate.gyro_bias_B, gyro_misalignment_B - estimate.gyro_misalignment_B,
+      gyro_scale_B - estimate.gyro_scale_B, accelerometer_bias_B - estimate.accelerometer_bias_B,
+      gnss_walk_N - estimate.gnss_walk_N, baro_walk - estimate.baro_walk, mag_bias_B - estimate.mag_bias_B;
   return error;
 }
 

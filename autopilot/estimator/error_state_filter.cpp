@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "autopilot/estimator/covariance.hpp"
 #include "autopilot/estimator/ekf_measurements.hpp"
 
 namespace ironbird::autopilot {
@@ -19,17 +20,12 @@ constexpr int kG = ErrorState::kGyroBias;
 constexpr int kA = ErrorState::kAccelerometerBias;
 constexpr int kW = ErrorState::kGnssWalk;
 constexpr int kB = ErrorState::kBaroWalk;
+constexpr int kE = ErrorState::kGyroMisalignment;
+constexpr int kS = ErrorState::kGyroScale;
+constexpr int kM = ErrorState::kMagBias;
 
 constexpr double kLeastTurn = 1.0e-4;       // rad, below it the turn of the covariance is lost in it
 constexpr double kLeastLevelness = 1.0e-9;  // of a field that still has an azimuth
-
-double square(double a) {
-  return a * a;
-}
-
-Vector3 root_of(const Vector3& variances) {
-  return variances.cwiseMax(0.0).cwiseSqrt();
-}
 
 }  // namespace
 
@@ -59,9 +55,16 @@ void ErrorStateFilter::start(const StartState& start) {
   P_.diagonal().segment<3>(kP).setConstant(square(sigma.position));
   P_.diagonal().segment<3>(kV).setConstant(square(start.moving ? sigma.air_velocity : sigma.velocity));
   P_.diagonal().segment<3>(kG).setConstant(square(start.moving ? sigma.air_gyro_bias : sigma.gyro_bias));
+  P_.diagonal().segment<3>(kE).setConstant(square(q.gyro_misalignment));
+  P_.diagonal().segment<3>(kS).setConstant(square(q.gyro_scale));
+  P_.diagonal().segment<3>(kM).setConstant(square(q.mag));
   P_.block<3, 3>(kA, kA) = square(q.initial_accelerometer_bias) * across + square(vertical_bias) * along;
   P_.block<3, 3>(kT, kT) = square(tilt) * across + square(heading) * along;
-  if (start.moving) return;
+  if (!start.moving) start_at_rest(down_B);
+  if (!start.m_B.isZero()) start_heading(start.m_B, down_B);
+}
+
+void ErrorStateFilter::start_at_rest(const Vector3& down_B) {
   // The tilt came from the accelerometer, so its bias b tilts by -[down]x b/g (docs/equations.md, section 7).
   const Matrix3 tilt_from_bias = skew(down_B) * (-1.0 / aiding().gravity);
   const Matrix3 cross = tilt_from_bias * P_.block<3, 3>(kA, kA);
@@ -70,11 +73,28 @@ void ErrorStateFilter::start(const StartState& start) {
   P_.block<3, 3>(kA, kT) = cross.transpose();
 }
 
+void ErrorStateFilter::start_heading(const Vector3& m_B, const Vector3& down_B) {
+  // The heading came from the compass, so tilt t and compass bias b turn it by -(H_t t + H_b b).
+  const ErrorMagModel model = error_state_mag(x_, m_B, aiding().mag.declination);
+  const Matrix3 across = Matrix3::Identity() - down_B * down_B.transpose();
+  const Matrix3 attitude_from_tilt = Matrix3::Identity() - down_B * model.H_attitude * across;
+  const Matrix3 attitude_from_bias = -down_B * model.H_bias;
+  const Eigen::Matrix<double, ErrorState::kSize, 3> columns =
+      P_.middleCols<3>(kT).lazyProduct(attitude_from_tilt.transpose()) +
+      P_.middleCols<3>(kM).lazyProduct(attitude_from_bias.transpose());
+  const Matrix3 attitude =
+      attitude_from_tilt * columns.middleRows<3>(kT) + attitude_from_bias * columns.middleRows<3>(kM);
+  P_.middleCols<3>(kT) = columns;
+  P_.middleRows<3>(kT) = columns.transpose();
+  P_.block<3, 3>(kT, kT) = 0.5 * (attitude + attitude.transpose());
+}
+
 void ErrorStateFilter::rebuild_step_constants(double h) {
   const ErrorStateNoiseParams& q = params().noise;
   step_ = h;
   decay_.gnss = std::exp(-h / q.gnss_time_constant);
   decay_.baro = std::exp(-h / q.baro_time_constant);
+  decay_.mag = std::exp(-h / q.mag_time_constant);
   const double gnss = 1.0 - square(decay_.gnss);
   noise_.setZero();
   noise_.segment<3>(kV).setConstant(square(q.accelerometer) * h);
@@ -84,6 +104,7 @@ void ErrorStateFilter::rebuild_step_constants(double h) {
   noise_.segment<3>(kW) << square(q.gnss_horizontal) * gnss, square(q.gnss_horizontal) * gnss,
       square(q.gnss_vertical) * gnss;
   noise_(kB) = square(q.baro) * (1.0 - square(decay_.baro));
+  noise_.segment<3>(kM).setConstant(square(q.mag) * (1.0 - square(decay_.mag)));
 }
 
 void ErrorStateFilter::predict(const Vector3& f_B, const Vector3& w_B, double dt) {
@@ -110,24 +131,22 @@ void ErrorStateFilter::inject(const ErrorState::Vector& correction) {
   P_.block<3, 3>(kT, kT) = 0.5 * (attitude + attitude.transpose());
 }
 
-void ErrorStateFilter::forget(int first, int size, double variance) {
-  P_.middleRows(first, size).setZero();
-  P_.middleCols(first, size).setZero();
-  P_.diagonal().segment(first, size).setConstant(variance);
-}
-
 void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
   const MagParams& wanted = aiding().mag;
-  const double innovation = error_state_mag(x_, m_B, wanted.declination).innovation;
+  const Vector3 field_B = m_B - x_.mag_bias_B;
+  const double innovation = error_state_mag(x_, field_B, wanted.declination).innovation;
   const Vector3 down_B = x_.q_NB.conjugate() * Vector3::UnitZ();
   const ErrorMagModel model =
-      error_state_mag(x_, expected_field(m_B, down_B, innovation), wanted.declination);
+      error_state_mag(x_, expected_field(field_B, down_B, innovation), wanted.declination);
   // Noise of the unit vector turns the azimuth by itself over the horizontal part.
   const double R =
       square(wanted.sigma) / std::max(model.levelness, kLeastLevelness) + square(wanted.sigma_tilt);
-  const double S = model.H * P_.block<3, 3>(kT, kT) * model.H.transpose() + R;
+  const ErrorState::Vector PCt = P_.middleCols<3>(kT).lazyProduct(model.H_attitude.transpose()) +
+                                 P_.middleCols<3>(kM).lazyProduct(model.H_bias.transpose());
+  const double CPCt = model.H_attitude.dot(PCt.segment<3>(kT)) + model.H_bias.dot(PCt.segment<3>(kM));
   innovations_.heading = innovation;
-  const Verdict verdict = mag_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
+  const Verdict verdict =
+      mag_gate().judge(square(innovation) / (CPCt + R), wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
     x_.q_NB = (Quaternion(Eigen::AngleAxisd(innovation, Vector3::UnitZ())) * x_.q_NB).normalized();
@@ -135,7 +154,7 @@ void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
     return;
   }
   Update update;
-  update.fuse_block<3>(P_, innovation, model.H, kT, R);
+  update.fuse(P_, innovation, PCt, CPCt, 0.0, R);
   inject(update.correction);
 }
 
@@ -153,7 +172,7 @@ void ErrorStateFilter::correct_baro(double difference, Time now) {
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
     // The receiver knows the height as well: it is the pressure that has stepped.
-    forget(kB, 1, R);
+    decorrelate(P_, kB, 1, R);
     x_.baro_walk += innovation;
     return;
   }
@@ -180,7 +199,7 @@ void ErrorStateFilter::fuse_velocity(const GnssObservation& fix, Time now, Updat
       update.fuse_component(P_, fix.dv_N(axis), kV + axis, 1.0, fix.variance_v(axis));
     }
   } else if (verdict == Verdict::kReset) {
-    forget(kV, 3, fix.variance_v.maxCoeff());
+    decorrelate(P_, kV, 3, fix.variance_v.maxCoeff());
     update.correction.segment<3>(kV) = fix.dv_N;
   }
 }
@@ -203,17 +222,18 @@ void ErrorStateFilter::fuse_position(const GnssObservation& fix, Time now, Updat
                   update.correction(kP + axis) + update.correction(kW + axis), fix.variance_p(axis));
     }
   } else if (verdict == Verdict::kReset) {
-    forget(kP, 2, fix.variance_p.x());
+    decorrelate(P_, kP, 2, fix.variance_p.x());
     update.correction.segment<2>(kP) = innovation.head<2>() - update.correction.segment<2>(kW);
     // Height has the barometer as well: there it is the receiver that has stepped.
-    forget(kW + 2, 1, fix.variance_p.z());
+    decorrelate(P_, kW + 2, 1, fix.variance_p.z());
     update.correction(kW + 2) = innovation.z() - update.correction(kP + 2);
   }
 }
 
 bool ErrorStateFilter::is_finite() const {
   const double sum = x_.p_NB_N.sum() + x_.v_NB_N.sum() + x_.q_NB.coeffs().sum() + x_.gyro_bias_B.sum() +
-                     x_.accelerometer_bias_B.sum() + x_.gnss_walk_N.sum() + x_.baro_walk;
+                     x_.gyro_misalignment_B.sum() + x_.gyro_scale_B.sum() + x_.accelerometer_bias_B.sum() +
+                     x_.gnss_walk_N.sum() + x_.baro_walk + x_.mag_bias_B.sum();
   return std::isfinite(sum) && std::isfinite(P_.diagonal().sum()) && P_.diagonal().minCoeff() >= 0.0;
 }
 
@@ -242,10 +262,16 @@ void ErrorStateFilter::publish(StateEstimate& estimate) const {
 void ErrorStateFilter::probe_filter(ProbeVisitor& visit) const {
   visit("gyro_bias", x_.gyro_bias_B, "rad/s");
   visit("sigma_gyro_bias", root_of(P_.diagonal().segment<3>(kG)), "rad/s");
+  visit("gyro_misalignment", x_.gyro_misalignment_B, "rad");
+  visit("sigma_gyro_misalignment", root_of(P_.diagonal().segment<3>(kE)), "rad");
+  visit("gyro_scale", x_.gyro_scale_B, "1");
+  visit("sigma_gyro_scale", root_of(P_.diagonal().segment<3>(kS)), "1");
   visit("accelerometer_bias", x_.accelerometer_bias_B, "m/s^2");
   visit("sigma_accelerometer_bias", root_of(P_.diagonal().segment<3>(kA)), "m/s^2");
   visit("gnss_walk", x_.gnss_walk_N, "m");
   visit("baro_walk", x_.baro_walk, "Pa");
+  visit("mag_bias", x_.mag_bias_B, "1");
+  visit("sigma_mag_bias", root_of(P_.diagonal().segment<3>(kM)), "1");
 }
 
 }  // namespace ironbird::autopilot

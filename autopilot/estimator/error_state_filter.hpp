@@ -13,11 +13,15 @@ struct ErrorStateNoiseParams {
   double gyro = 2.0e-4;
   double gyro_bias = 1.0e-5;
   double accelerometer_bias = 3.0e-4;
+  double gyro_misalignment = 0.01;
+  double gyro_scale = 0.01;
   double gnss_horizontal = 1.0;
   double gnss_vertical = 2.0;
   double gnss_time_constant = 400.0;
   double baro = 20.0;
   double baro_time_constant = 600.0;
+  double mag = 0.01;
+  double mag_time_constant = 1000.0;
   double initial_accelerometer_bias = 0.06;
   double initial_vertical_bias = 0.02;
 
@@ -29,12 +33,17 @@ struct ErrorStateNoiseParams {
     visit("gyro_bias", self.gyro_bias, "rad/s/sqrt(s)", "walk of the gyro bias", 0.0, 1e3);
     visit("accelerometer_bias", self.accelerometer_bias, "m/s^2/sqrt(s)", "walk of the accelerometer bias",
           0.0, 1e3);
+    visit("gyro_misalignment", self.gyro_misalignment, "rad", "turn of the gyro's axes, 1 sigma per axis",
+          0.0, 1.0);
+    visit("gyro_scale", self.gyro_scale, "1", "scale error of each axis of the gyro, 1 sigma", 0.0, 1.0);
     visit("gnss_horizontal", self.gnss_horizontal, "m", "slow error of north and east, 1 sigma at rest", 0.0,
           1e3);
     visit("gnss_vertical", self.gnss_vertical, "m", "slow error of height, 1 sigma at rest", 0.0, 1e3);
     visit("gnss_time_constant", self.gnss_time_constant, "s", "memory of the slow satellite error", 1.0, 1e6);
     visit("baro", self.baro, "Pa", "slow error of the pressure, 1 sigma at rest", 0.0, 1e5);
     visit("baro_time_constant", self.baro_time_constant, "s", "memory of the slow pressure error", 1.0, 1e6);
+    visit("mag", self.mag, "1", "slow error of the field's unit vector, per axis, 1 sigma at rest", 0.0, 1.0);
+    visit("mag_time_constant", self.mag_time_constant, "s", "memory of the slow compass error", 1.0, 1e6);
     visit("initial_accelerometer_bias", self.initial_accelerometer_bias, "m/s^2",
           "bias of the accelerometer at the start, 1 sigma", 0.0, 10.0);
     visit("initial_vertical_bias", self.initial_vertical_bias, "m/s^2",
@@ -62,10 +71,11 @@ struct ErrorStateParams {
   }
 };
 
-/// Quaternion error-state filter: position and velocity in N, attitude, biases of gyro and accelerometer, and
-/// the slow errors of receiver and barometer as Gauss-Markov states. 19 error components.
+/// Quaternion error-state filter: position and velocity in N, attitude, biases of gyro and accelerometer,
+/// misalignment and scale of the gyro, and the slow errors of receiver, barometer and compass as Gauss-Markov
+/// states. 28 error components.
 ///
-/// Equations in docs/equations.md, section 9. It does not estimate wind, lever arms or the magnetic field.
+/// Equations in docs/equations.md, section 9. It does not estimate wind or lever arms.
 class ErrorStateFilter : public Tunable<AidedEstimator, ErrorStateParams> {
  public:
   const ErrorState& state() const { return x_; }
@@ -89,8 +99,9 @@ class ErrorStateFilter : public Tunable<AidedEstimator, ErrorStateParams> {
   using Update = ScalarUpdate<ErrorState::kSize>;
 
   void rebuild_step_constants(double h);
+  void start_at_rest(const Vector3& down_B);
+  void start_heading(const Vector3& m_B, const Vector3& down_B);
   void inject(const ErrorState::Vector& correction);
-  void forget(int first, int size, double variance);
   void fuse_velocity(const GnssObservation& fix, Time now, Update& update);
   void fuse_position(const GnssObservation& fix, Time now, Update& update);
   void on_parameters() override { step_ = 0.0; }

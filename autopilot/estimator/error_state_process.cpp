@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "autopilot/estimator/covariance.hpp"
 #include "autopilot/math/angles.hpp"
 
 namespace ironbird::autopilot {
@@ -16,15 +17,21 @@ constexpr int kG = ErrorState::kGyroBias;
 constexpr int kA = ErrorState::kAccelerometerBias;
 constexpr int kW = ErrorState::kGnssWalk;
 constexpr int kB = ErrorState::kBaroWalk;
+constexpr int kM = ErrorState::kMagBias;
 
 // A field this near to vertical (squared sine of the angle) has no azimuth; keeps the quotients finite.
 constexpr double kLeastLevelness = 1.0e-9;
 
 }  // namespace
 
+Vector3 corrected_rate(const ErrorState& x, const Vector3& w_NB_B) {
+  const Vector3 u_B = w_NB_B - x.gyro_bias_B;
+  return u_B + x.gyro_misalignment_B.cross(u_B) + x.gyro_scale_B.cwiseProduct(u_B);
+}
+
 ErrorState error_state_propagate(const ErrorState& x, const EkfInput& u, const WalkDecay& decay, double h,
                                  Matrix3& R_mid) {
-  const Vector3 half_turn_B = (0.5 * h) * (u.w_NB_B - x.gyro_bias_B);
+  const Vector3 half_turn_B = (0.5 * h) * corrected_rate(x, u.w_NB_B);
   const Quaternion half = exponential(half_turn_B);
   const Quaternion q_mid = x.q_NB * half;
   R_mid = q_mid.toRotationMatrix();
@@ -36,13 +43,19 @@ ErrorState error_state_propagate(const ErrorState& x, const EkfInput& u, const W
   next.q_NB = (q_mid * half).normalized();
   next.gnss_walk_N *= decay.gnss;
   next.baro_walk *= decay.baro;
+  next.mag_bias_B *= decay.mag;
   return next;
 }
 
 ErrorTransition error_transition(const ErrorState& x, const EkfInput& u, const Matrix3& R_mid,
                                  const WalkDecay& decay, double h) {
   const double half = 0.5 * h * h;
-  const Matrix3 w_cross = skew(u.w_NB_B - x.gyro_bias_B);
+  const Matrix3 w_cross = skew(corrected_rate(x, u.w_NB_B));
+  // w = (I + [misalignment]x + diag(scale)) u with u the reading less its bias.
+  const Vector3 u_B = u.w_NB_B - x.gyro_bias_B;
+  ErrorTransition::GyroBlock w_by_gyro;
+  w_by_gyro << -Matrix3::Identity() - skew(x.gyro_misalignment_B) - Matrix3(x.gyro_scale_B.asDiagonal()),
+      -skew(u_B), Matrix3(u_B.asDiagonal());
   const Matrix3 A_vt = -R_mid * skew(u.f_B - x.accelerometer_bias_B);
   ErrorTransition F;
   F.h = h;
@@ -50,10 +63,10 @@ ErrorTransition error_transition(const ErrorState& x, const EkfInput& u, const M
   F.pt = half * A_vt;
   F.pa = -half * R_mid;
   F.vt = h * A_vt - half * A_vt.lazyProduct(w_cross);
-  F.vg = -half * A_vt;
+  F.vg = (half * A_vt).lazyProduct(w_by_gyro);
   F.va = -h * R_mid;
   F.tt = Matrix3::Identity() - h * w_cross + half * w_cross.lazyProduct(w_cross);
-  F.tg = -h * Matrix3::Identity() + half * w_cross;
+  F.tg = (h * Matrix3::Identity() - half * w_cross).lazyProduct(w_by_gyro);
   return F;
 }
 
@@ -63,12 +76,13 @@ ErrorState::Matrix ErrorTransition::full() const {
   F.block<3, 3>(kP, kT) = pt;
   F.block<3, 3>(kP, kA) = pa;
   F.block<3, 3>(kV, kT) = vt;
-  F.block<3, 3>(kV, kG) = vg;
+  F.block<3, 9>(kV, kG) = vg;
   F.block<3, 3>(kV, kA) = va;
   F.block<3, 3>(kT, kT) = tt;
-  F.block<3, 3>(kT, kG) = tg;
+  F.block<3, 9>(kT, kG) = tg;
   F.block<3, 3>(kW, kW) *= decay.gnss;
   F(kB, kB) = decay.baro;
+  F.block<3, 3>(kM, kM) *= decay.mag;
   return F;
 }
 
@@ -76,34 +90,34 @@ void error_state_propagate_covariance(ErrorState::Matrix& P, const ErrorTransiti
                                       const ErrorState::Vector& noise) {
   constexpr int kAll = ErrorState::kSize;
   const Matrix3 pt = F.pt.transpose(), pa = F.pa.transpose();
-  const Matrix3 vt = F.vt.transpose(), vg = F.vg.transpose(), va = F.va.transpose();
-  const Matrix3 tt = F.tt.transpose(), tg = F.tg.transpose();
+  const Matrix3 vt = F.vt.transpose(), va = F.va.transpose(), tt = F.tt.transpose();
+  const Eigen::Matrix<double, 9, 3> vg = F.vg.transpose(), tg = F.tg.transpose();
 
   // N = P F^T, column block by column block, then M = N^T = F P.
   ErrorState::Matrix N;
   N.middleCols<3>(kP) = P.middleCols<3>(kP) + F.h * P.middleCols<3>(kV) +
                         P.middleCols<3>(kT).lazyProduct(pt) + P.middleCols<3>(kA).lazyProduct(pa);
   N.middleCols<3>(kV) = P.middleCols<3>(kV) + P.middleCols<3>(kT).lazyProduct(vt) +
-                        P.middleCols<3>(kG).lazyProduct(vg) + P.middleCols<3>(kA).lazyProduct(va);
-  N.middleCols<3>(kT) = P.middleCols<3>(kT).lazyProduct(tt) + P.middleCols<3>(kG).lazyProduct(tg);
-  N.middleCols<6>(kG) = P.middleCols<6>(kG);
+                        P.middleCols<9>(kG).lazyProduct(vg) + P.middleCols<3>(kA).lazyProduct(va);
+  N.middleCols<3>(kT) = P.middleCols<3>(kT).lazyProduct(tt) + P.middleCols<9>(kG).lazyProduct(tg);
+  N.middleCols<12>(kG) = P.middleCols<12>(kG);
   N.middleCols<3>(kW) = F.decay.gnss * P.middleCols<3>(kW);
   N.col(kB) = F.decay.baro * P.col(kB);
+  N.middleCols<3>(kM) = F.decay.mag * P.middleCols<3>(kM);
   const ErrorState::Matrix M = N.transpose();
 
   // F P F^T = M F^T, upper triangle only.
   P.block<3, 3>(kP, kP) = M.block<3, 3>(kP, kP) + F.h * M.block<3, 3>(kP, kV) +
                           M.block<3, 3>(kP, kT).lazyProduct(pt) + M.block<3, 3>(kP, kA).lazyProduct(pa);
   P.block<6, 3>(kP, kV) = M.block<6, 3>(kP, kV) + M.block<6, 3>(kP, kT).lazyProduct(vt) +
-                          M.block<6, 3>(kP, kG).lazyProduct(vg) + M.block<6, 3>(kP, kA).lazyProduct(va);
-  P.block<9, 3>(kP, kT) = M.block<9, 3>(kP, kT).lazyProduct(tt) + M.block<9, 3>(kP, kG).lazyProduct(tg);
-  P.block<15, 6>(kP, kG) = M.block<15, 6>(kP, kG);
-  P.block<18, 3>(kP, kW) = F.decay.gnss * M.block<18, 3>(kP, kW);
+                          M.block<6, 9>(kP, kG).lazyProduct(vg) + M.block<6, 3>(kP, kA).lazyProduct(va);
+  P.block<9, 3>(kP, kT) = M.block<9, 3>(kP, kT).lazyProduct(tt) + M.block<9, 9>(kP, kG).lazyProduct(tg);
+  P.block<kW, 12>(kP, kG) = M.block<kW, 12>(kP, kG);
+  P.block<kB, 3>(kP, kW) = F.decay.gnss * M.block<kB, 3>(kP, kW);
   P.col(kB) = F.decay.baro * M.col(kB);
+  P.block<kAll, 3>(kP, kM) = F.decay.mag * M.block<kAll, 3>(kP, kM);
   P.diagonal() += noise;
-  for (int column = 0; column < kAll; ++column) {
-    for (int row = column + 1; row < kAll; ++row) P(row, column) = P(column, row);
-  }
+  mirror_upper(P);
 }
 
 ErrorMagModel error_state_mag(const ErrorState& x, const Vector3& m_B, double declination) {
@@ -115,7 +129,8 @@ ErrorMagModel error_state_mag(const ErrorState& x, const Vector3& m_B, double de
   // d azimuth = (m_x dm_y - m_y dm_x)/(m_x^2 + m_y^2), and R Exp(e) m = R m - R [m]x e.
   const double divisor = std::max(model.levelness, kLeastLevelness);
   const Eigen::Matrix<double, 1, 3> azimuth(-m_N.y() / divisor, m_N.x() / divisor, 0.0);
-  model.H = -azimuth * R_NB * skew(m_B);
+  model.H_attitude = -azimuth * R_NB * skew(m_B);
+  model.H_bias = -azimuth * R_NB;
   return model;
 }
 

@@ -9,13 +9,18 @@ namespace ironbird::autopilot {
 struct WalkDecay {
   double gnss = 1.0;
   double baro = 1.0;
+  double mag = 1.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("gnss", self.gnss, "1", "what is left of the satellite walk after one step");
     visit("baro", self.baro, "1", "what is left of the barometer walk after one step");
+    visit("mag", self.mag, "1", "what is left of the compass bias after one step");
   }
 };
+
+/// The angular velocity that the state makes of the gyro's reading, rad/s.
+Vector3 corrected_rate(const ErrorState& x, const Vector3& w_NB_B);
 
 /// The state one step h (s) later: inertial sensors held, attitude of the middle of the step for the
 /// acceleration.
@@ -24,10 +29,13 @@ ErrorState error_state_propagate(const ErrorState& x, const EkfInput& u, const W
                                  Matrix3& R_mid);
 
 /// The blocks of the error's transition over one step that are neither zero nor multiples of identity. First
-/// letter: row, second: column; p, v, t (attitude), g (gyro bias), a (accelerometer bias). The block (p, v)
-/// is h times identity, the walks are multiplied by their decay.
+/// letter: row, second: column; p, v, t (attitude), g (gyro bias, misalignment, scale), a (accelerometer
+/// bias). The block (p, v) is h times identity, the walks are multiplied by their decay.
 struct ErrorTransition {
-  Matrix3 pt, pa, vt, vg, va, tt, tg;
+  using GyroBlock = Eigen::Matrix<double, 3, 9>;
+
+  Matrix3 pt, pa, vt, va, tt;
+  GyroBlock vg, tg;
   double h = 0.0;
   WalkDecay decay;
 
@@ -39,10 +47,10 @@ struct ErrorTransition {
     visit("pt", self.pt, "m/rad", "position from attitude");
     visit("pa", self.pa, "s^2", "position from accelerometer bias");
     visit("vt", self.vt, "m/s/rad", "velocity from attitude");
-    visit("vg", self.vg, "m/rad", "velocity from gyro bias");
+    visit("vg", self.vg, "", "velocity from gyro bias (m/rad), misalignment (m/s/rad), scale (m/s)");
     visit("va", self.va, "s", "velocity from accelerometer bias");
     visit("tt", self.tt, "1", "attitude from attitude");
-    visit("tg", self.tg, "s", "attitude from gyro bias");
+    visit("tg", self.tg, "", "attitude from gyro bias (s), misalignment (1), scale (rad)");
     visit("h", self.h, "s", "step");
     visit("decay", self.decay, "", "of the walks");
   }
@@ -56,11 +64,12 @@ ErrorTransition error_transition(const ErrorState& x, const EkfInput& u, const M
 void error_state_propagate_covariance(ErrorState::Matrix& P, const ErrorTransition& F,
                                       const ErrorState::Vector& noise);
 
-/// The compass's innovation, declination - azimuth of R m, and its derivative with respect to the attitude
-/// error.
+/// The compass's innovation, declination - azimuth of R (m - bias), and its derivatives with respect to the
+/// errors of attitude and bias.
 struct ErrorMagModel {
   double innovation = 0.0;
-  Eigen::Matrix<double, 1, 3> H = Eigen::Matrix<double, 1, 3>::Zero();
+  Eigen::Matrix<double, 1, 3> H_attitude = Eigen::Matrix<double, 1, 3>::Zero();
+  Eigen::Matrix<double, 1, 3> H_bias = Eigen::Matrix<double, 1, 3>::Zero();
   double levelness = 0.0;
 
   template <class Self, class Visit>
@@ -70,7 +79,7 @@ struct ErrorMagModel {
   }
 };
 
-/// @param m_B  unit vector along the magnetic field
+/// @param m_B  the measured unit vector along the magnetic field, less the bias of `x`
 ErrorMagModel error_state_mag(const ErrorState& x, const Vector3& m_B, double declination);
 
 }  // namespace ironbird::autopilot

@@ -31,6 +31,8 @@ constexpr double kMagSigma = 0.005;          // of the unit vector
 constexpr double kGyroNoise = 0.00226;       // rad/s per sample
 constexpr double kAccelerometerNoise = 0.2;  // m/s^2 per sample
 
+const Vector3 kField_N(std::cos(1.1), 0.0, std::sin(1.1));
+
 class TestedEkf final : public Ekf {
  public:
   static constexpr int kPositionDimensions = 2;
@@ -70,9 +72,18 @@ class Noise {
 /// The hidden truth beyond the path.
 struct Hidden {
   Vector3 gyro_bias = Vector3::Zero();
+  Vector3 gyro_misalignment = Vector3::Zero();
+  Vector3 gyro_scale = Vector3::Zero();
   Vector3 accelerometer_bias = Vector3::Zero();
   Vector3 gnss_walk = Vector3::Zero();
   double baro_walk = 0.0;
+  Vector3 mag_bias = Vector3::Zero();
+
+  /// What a gyro with these errors reads of the rate.
+  Vector3 gyro_reading(const Vector3& w_B) const {
+    const Matrix3 gain = Matrix3::Identity() + skew(gyro_misalignment) + Matrix3(gyro_scale.asDiagonal());
+    return gain.inverse() * w_B + gyro_bias;
+  }
 };
 
 AidingParams matched_aiding() {
@@ -117,12 +128,19 @@ void set_up(TestedErrorState& filter, Hidden& hidden, Noise& noise) {
   params.noise.accelerometer_bias = 0.0;
   params.noise.accelerometer = kAccelerometerNoise * std::sqrt(kImuPeriod);
   params.noise.gyro = kGyroNoise * std::sqrt(kImuPeriod);
+  params.noise.gyro_misalignment = 0.01;
+  params.noise.gyro_scale = 0.01;
+  params.noise.mag = 0.01;
+  params.noise.mag_time_constant = 1.0e6;  // constant
   params.noise.initial_accelerometer_bias = 0.05;
   params.noise.gnss_time_constant = 60.0;
   params.noise.baro_time_constant = 60.0;
   filter.set_params(params);
   hidden.gyro_bias = 0.01 * noise.three();
   hidden.accelerometer_bias = 0.05 * noise.three();
+  hidden.gyro_misalignment = params.noise.gyro_misalignment * noise.three();
+  hidden.gyro_scale = params.noise.gyro_scale * noise.three();
+  hidden.mag_bias = params.noise.mag * noise.three();
 }
 
 /// A start that is wrong by a draw from the initial covariance.
@@ -142,6 +160,16 @@ StartState draw_start(const FakeTruth& truth, const Hidden& hidden, const Aiding
   return start;
 }
 
+/// A start whose heading is what the biased compass says, on a tilt that is wrong already.
+void take_heading_from_compass(StartState& start, const FakeTruth& truth, const Hidden& hidden,
+                               const AidingParams& aiding, Noise& noise) {
+  start.m_B = truth.R_NB.transpose() * kField_N + hidden.mag_bias;
+  const Vector3 m_N = start.q_NB * start.m_B;
+  const double azimuth = std::atan2(m_N.y(), m_N.x());
+  const double turn = aiding.initial.air_heading * noise() - azimuth;
+  start.q_NB = (Quaternion(Eigen::AngleAxisd(turn, Vector3::UnitZ())) * start.q_NB).normalized();
+}
+
 double nees(const TestedEkf& filter, const FakeTruth& truth, const Hidden& hidden) {
   EkfState::Vector error;
   Vector3 angle;
@@ -157,9 +185,12 @@ double nees(const TestedErrorState& filter, const FakeTruth& truth, const Hidden
   x.v_NB_N = truth.v_N;
   x.q_NB = Quaternion(truth.R_NB);
   x.gyro_bias_B = hidden.gyro_bias;
+  x.gyro_misalignment_B = hidden.gyro_misalignment;
+  x.gyro_scale_B = hidden.gyro_scale;
   x.accelerometer_bias_B = hidden.accelerometer_bias;
   x.gnss_walk_N = hidden.gnss_walk;
   x.baro_walk = hidden.baro_walk;
+  x.mag_bias_B = hidden.mag_bias;
   // The walks start without any variance, so the first rows are scaled before P is inverted.
   const ErrorState::Vector error = x.minus(filter.state());
   const ErrorState::Vector scale = filter.covariance().diagonal().cwiseSqrt().cwiseInverse();
@@ -187,8 +218,7 @@ void walk(Hidden& hidden, const TestedErrorState& filter, Noise& noise) {
 template <class Filter>
 void correct_all(Filter& filter, const FakeTruth& truth, const Hidden& hidden, Noise& noise, int tick) {
   if (tick % 8 == 0) {
-    const Vector3 field_N(std::cos(1.1), 0.0, std::sin(1.1));
-    const Vector3 m_B = truth.R_NB.transpose() * field_N + kMagSigma * noise.three();
+    const Vector3 m_B = truth.R_NB.transpose() * kField_N + hidden.mag_bias + kMagSigma * noise.three();
     filter.correct_mag(m_B.normalized(), Time{0});
   }
   if (tick % 8 == 4) {
@@ -216,7 +246,10 @@ std::vector<Sums> fly_all(bool euler) {
     set_up(filter, hidden, noise);
     FakePath path;
     path.rest = -10.0;
-    filter.start(draw_start(path.at(0.0), hidden, filter.params().aiding, noise, euler));
+    const AidingParams& aiding = filter.params().aiding;
+    StartState start = draw_start(path.at(0.0), hidden, aiding, noise, euler);
+    if (!euler && seed % 2 == 0) take_heading_from_compass(start, path.at(0.0), hidden, aiding, noise);
+    filter.start(start);
     int check = 0;
     for (int tick = 1; check < kChecks; ++tick) {
       const double t = tick * kImuPeriod;
@@ -225,7 +258,7 @@ std::vector<Sums> fly_all(bool euler) {
       const FakeTruth middle = path.at(t - 0.5 * kImuPeriod);
       const Vector3 f_B = middle.R_NB.transpose() * (middle.a_N - 9.81 * Vector3::UnitZ());
       filter.predict(f_B + hidden.accelerometer_bias + kAccelerometerNoise * noise.three(),
-                     middle.w_B + hidden.gyro_bias + kGyroNoise * noise.three(), kImuPeriod);
+                     hidden.gyro_reading(middle.w_B) + kGyroNoise * noise.three(), kImuPeriod);
       walk(hidden, filter, noise);
       const FakeTruth truth = path.at(t);
       correct_all(filter, truth, hidden, noise, tick);

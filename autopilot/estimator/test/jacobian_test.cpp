@@ -56,6 +56,9 @@ struct Model {
 constexpr double kGravity = 9.81;
 const Vector3 kGyroBias(0.01, -0.02, 0.03);
 const Vector3 kAccelerometerBias(0.05, 0.02, -0.04);
+const Vector3 kGyroMisalignment(0.02, -0.01, 0.015);
+const Vector3 kGyroScale(-0.01, 0.02, 0.005);
+const Vector3 kMagBias(0.02, -0.03, 0.01);
 const Vector3 kField = Vector3(0.41, 0.06, 0.91).normalized();  // in N
 
 EkfState ekf_state(const Point& p) {
@@ -77,9 +80,12 @@ ErrorState error_state(const Point& p) {
   x.q_NB = quaternion_NB(p.theta);
   x.v_NB_N = x.q_NB * p.v_B;
   x.gyro_bias_B = kGyroBias;
+  x.gyro_misalignment_B = kGyroMisalignment;
+  x.gyro_scale_B = kGyroScale;
   x.accelerometer_bias_B = kAccelerometerBias;
   x.gnss_walk_N = {0.4, -0.3, 0.8};
   x.baro_walk = 12.0;
+  x.mag_bias_B = kMagBias;
   return x;
 }
 
@@ -89,7 +95,7 @@ Vector dynamics_at(const EkfState::Vector& x, const EkfInput& u) {
 }
 
 constexpr double kErrorStep = 1.0e-3;  // s, of the error-state transition
-const WalkDecay kDecay{.gnss = 0.999, .baro = 0.998};
+const WalkDecay kDecay{.gnss = 0.999, .baro = 0.998, .mag = 0.997};
 
 std::vector<Model> models() {
   std::vector<Model> all;
@@ -142,13 +148,20 @@ std::vector<Model> models() {
                    const double y = ekf_mag(field_B(p), EulerTrig(theta), 0.2).y;
                    return Vector::Constant(1, shortest_difference(y, theta.z()));
                  }});
-  all.push_back({"ErrorStateMag", 3,
-                 [](const Point& p) -> Matrix { return -error_state_mag(error_state(p), field_B(p), 0.1).H; },
+  all.push_back({"ErrorStateMag", 6,
+                 [](const Point& p) -> Matrix {
+                   const ErrorMagModel model = error_state_mag(error_state(p), field_B(p) - kMagBias, 0.1);
+                   Matrix H(1, 6);
+                   H << model.H_attitude, model.H_bias;
+                   return -H;
+                 },
                  [](const Point& p, const Vector& e) -> Vector {
                    ErrorState::Vector error = ErrorState::Vector::Zero();
-                   error.segment<3>(ErrorState::kAttitude) = e;
+                   error.segment<3>(ErrorState::kAttitude) = e.head<3>();
+                   error.segment<3>(ErrorState::kMagBias) = e.tail<3>();
                    const ErrorState x = error_state(p).plus(error);
-                   return Vector::Constant(1, error_state_mag(x, field_B(p), 0.1).innovation);
+                   const Vector3 field = field_B(p) - x.mag_bias_B;
+                   return Vector::Constant(1, error_state_mag(x, field, 0.1).innovation);
                  }});
   all.push_back({"ErrorStateTransition", ErrorState::kSize,
                  [](const Point& p) -> Matrix {
