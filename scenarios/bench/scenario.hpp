@@ -94,10 +94,11 @@ enum class OperatorWish : std::uint8_t {
   kRelease,
   kReturnToLaunch,
   kClearRoute,
+  kListRoute,
   kFollowerFlies
 };
 
-constexpr std::array<std::pair<OperatorWish, std::string_view>, 8> enumerators(OperatorWish) {
+constexpr std::array<std::pair<OperatorWish, std::string_view>, 9> enumerators(OperatorWish) {
   return {{{OperatorWish::kTakeOff, "take_off"},
            {OperatorWish::kLand, "land"},
            {OperatorWish::kResume, "resume"},
@@ -105,6 +106,7 @@ constexpr std::array<std::pair<OperatorWish, std::string_view>, 8> enumerators(O
            {OperatorWish::kRelease, "release"},
            {OperatorWish::kReturnToLaunch, "return_to_launch"},
            {OperatorWish::kClearRoute, "clear_route"},
+           {OperatorWish::kListRoute, "list_route"},
            {OperatorWish::kFollowerFlies, "follower_flies"}}};
 }
 
@@ -148,7 +150,7 @@ struct EventConfig {
   std::string after;
   std::optional<simulator::FaultKind> fault;
   double lasts = 0.0;
-  int index = 0;
+  std::optional<int> index;
   double magnitude = 0.0;
   std::array<double, 3> vector{};
   std::optional<PilotAction> pilot;
@@ -177,7 +179,7 @@ struct EventConfig {
     visit("pilot", self.pilot, "1", "the pilot's hands");
     visit("request", self.request, "1", "a request of the operator");
     visit("add_waypoint", self.add_waypoint, "",
-          "a waypoint is added at the end, or before `index` when that is given");
+          "a waypoint is added at the end, or before the one with number `index`, from 0");
     visit("remove_waypoint", self.remove_waypoint, "1", "the waypoint with this index is removed", 0.0,
           1000.0);
     visit("setpoint", self.setpoint, "", "the controller flies this setpoint instead of the follower's");

@@ -176,7 +176,10 @@ autopilot::ControlSetpoint only_setpoint(const SetpointConfig& config) {
 }
 
 simulator::Fault fault_of(const EventConfig& event) {
-  return {*event.fault, event.index, event.magnitude, {event.vector[0], event.vector[1], event.vector[2]}};
+  return {*event.fault,
+          event.index.value_or(0),
+          event.magnitude,
+          {event.vector[0], event.vector[1], event.vector[2]}};
 }
 
 std::string picture_event(const std::string& snapshot) {
