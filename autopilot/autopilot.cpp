@@ -1,6 +1,9 @@
 #include "autopilot/autopilot.hpp"
 
+#include <array>
+#include <charconv>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "autopilot/math/finite.hpp"
@@ -40,11 +43,30 @@ std::unique_ptr<Base> required(const std::string& name, const AutopilotConfig::S
   return module;
 }
 
+/// What the newcomer of a swap is to be told, the strongest last.
+std::vector<ParameterSetting> inheritance(const SwapModule& wish, bool same_kind, const ParameterTable& table,
+                                          const std::vector<ParameterSetting>& asked) {
+  std::vector<ParameterSetting> settings;
+  const auto belongs = [&](const std::string& path) { return path.starts_with(wish.slot + "."); };
+  for (const ParameterSlot& slot : table.slots()) {
+    if (same_kind && belongs(slot.path)) settings.emplace_back(slot.path, *table.get(slot.path));
+  }
+  settings.insert(settings.end(), wish.settings.begin(), wish.settings.end());
+  for (const ParameterSetting& setting : asked) {
+    if (belongs(setting.first)) settings.push_back(setting);
+  }
+  return settings;
+}
+
 template <class Base>
 RequestOutcome exchange(std::unique_ptr<Base>& place, AutopilotConfig::Slot& slot, const SwapModule& wish,
-                        const Registry<Base>& registry, ParameterTable& table, const Signals& signals) {
+                        const Registry<Base>& registry, const std::vector<ParameterSetting>& settings,
+                        ParameterTable& table, const Signals& signals) {
   std::unique_ptr<Base> newcomer = registry.make(wish.kind);
   if (newcomer == nullptr) return {false, unknown_kind(wish.slot, wish.kind, registry)};
+  ParameterTable own;
+  newcomer->register_parameters(own, wish.slot);
+  if (const std::string conflict = own.set_all(settings); !conflict.empty()) return {false, conflict};
   if (const std::string reason = newcomer->objection(signals); !reason.empty()) return {false, reason};
   settle(*newcomer, wish.slot, slot.period, table);
   newcomer->take_over(signals);
@@ -60,16 +82,32 @@ std::string_view name_of(SetOutcome outcome) {
   return "";
 }
 
-RequestOutcome set_parameter(ParameterTable& table, const SetParameter& wish) {
-  const SetOutcome outcome = table.set(wish.path, wish.value);
-  if (outcome == SetOutcome::kAccepted) return {true, ""};
-  std::string reason = wish.path + ": " + std::string(name_of(outcome));
-  if (const ParameterSlot* slot = table.find(wish.path);
-      slot != nullptr && outcome == SetOutcome::kOutOfBounds) {
-    reason += ", must be within " + std::to_string(slot->lower) + " and " + std::to_string(slot->upper) +
-              " " + slot->unit;
+std::string rounded(double value, int decimals = 2) {
+  std::array<char, 64> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals);
+  return {text.data(), end.ptr};
+}
+
+/// One line about a waypoint, for people.
+std::string line_about(const Waypoint& waypoint, std::size_t index) {
+  std::string line = std::to_string(index) + ": ";
+  for (const auto& [value, name] : enumerators(waypoint.kind)) {
+    if (value == waypoint.kind) line += name;
   }
-  return {false, reason};
+  if (waypoint.geodetic) {
+    const GeodeticPosition& where = *waypoint.geodetic;
+    line += " at latitude " + rounded(where.latitude, 9) + " rad, longitude " + rounded(where.longitude, 9) +
+            " rad, altitude " + rounded(where.altitude) + " m";
+  } else {
+    line += " at (" + rounded(waypoint.p_N.x()) + ", " + rounded(waypoint.p_N.y()) + ", " +
+            rounded(waypoint.p_N.z()) + ") m";
+  }
+  line += ", heading " + rounded(waypoint.heading) + " rad";
+  if (waypoint.speed > 0.0) line += ", at most " + rounded(waypoint.speed) + " m/s";
+  if (waypoint.kind != WaypointKind::kHold) return line;
+  return line +
+         (waypoint.hold_indefinitely ? ", until released" : ", for " + rounded(waypoint.hold_time) + " s");
 }
 
 }  // namespace
@@ -95,9 +133,7 @@ const FcuCommand& Autopilot::step(const SensorFrame& frame) {
   const Route& route = path_planner_->run(s.estimate, s.flight);
   if (route.revision != route_revision_ || route.released != s.route.released) s.route = route;
   route_revision_ = route.revision;
-  FlightStatus offered = s.flight;
-  // While an operator's setpoint flies, manager and follower wait as they do when the pilot flies.
-  if (override_ && offered.phase == FlightPhase::kOffboard) offered.phase = FlightPhase::kHold;
+  const FlightStatus offered = offered_flight();
   s.trajectory = path_manager_->run(route, s.estimate, offered);
   s.setpoint = trajectory_follower_->run(s.trajectory, s.estimate, offered);
   if (override_) s.setpoint = *override_;
@@ -110,17 +146,57 @@ RequestOutcome Autopilot::request(const Request& request) {
     if (path_planner_->request(*wish, signals_.estimate)) return {true, ""};
     return {false, "the path planner cannot do this with the present route"};
   }
-  if (const auto* wish = std::get_if<SetParameter>(&request)) return set_parameter(parameters_, *wish);
+  if (std::holds_alternative<ListRoute>(request)) return list();
+  if (const auto* wish = std::get_if<SetParameter>(&request)) return set(*wish);
   if (const auto* wish = std::get_if<SwapModule>(&request)) return swap(*wish);
-  if (const auto* wish = std::get_if<OverrideSetpoint>(&request)) {
-    if (wish->setpoint && !all_finite(*wish->setpoint)) return {false, "the setpoint is not finite"};
-    override_ = wish->setpoint;
-    return {true, ""};
-  }
+  if (const auto* wish = std::get_if<OverrideSetpoint>(&request)) return fly(*wish);
   FlightWish flight_wish = FlightWish::kTakeOff;
   if (std::holds_alternative<Land>(request)) flight_wish = FlightWish::kLand;
   if (std::holds_alternative<Resume>(request)) flight_wish = FlightWish::kResume;
   return controller_->request(flight_wish, signals_.estimate, signals_.flight.fcu);
+}
+
+RequestOutcome Autopilot::set(const SetParameter& wish) {
+  std::string conflict;
+  const SetOutcome outcome = parameters_.set(wish.path, wish.value, &conflict);
+  if (outcome == SetOutcome::kAccepted) {
+    std::erase_if(asked_, [&](const ParameterSetting& setting) { return setting.first == wish.path; });
+    asked_.emplace_back(wish.path, wish.value);
+    return {true, ""};
+  }
+  std::string reason = wish.path + ": " + std::string(name_of(outcome));
+  if (outcome == SetOutcome::kConflict) reason += ", " + conflict;
+  if (outcome == SetOutcome::kOutOfBounds) {
+    const ParameterSlot& slot = *parameters_.find(wish.path);
+    reason += ", must be within " + std::to_string(slot.lower) + " and " + std::to_string(slot.upper) + " " +
+              slot.unit;
+  }
+  return {false, reason};
+}
+
+RequestOutcome Autopilot::list() const {
+  RequestOutcome outcome{true, ""};
+  const std::vector<Waypoint>& wanted = path_planner_->wanted();
+  for (std::size_t i = 0; i < wanted.size(); ++i) outcome.answer.push_back(line_about(wanted[i], i));
+  return outcome;
+}
+
+RequestOutcome Autopilot::fly(const OverrideSetpoint& wish) {
+  if (wish.setpoint && !all_finite(*wish.setpoint)) return {false, "the setpoint is not finite"};
+  using enum FlightPhase;
+  const FlightPhase phase = controller_->phase();
+  if (wish.setpoint && (phase == kLanding || phase == kLevelDescent || phase == kSilent)) {
+    return {false, "the vehicle is descending or silent: ask to resume first"};
+  }
+  override_ = wish.setpoint;
+  return {true, ""};
+}
+
+/// While an operator's setpoint flies, manager and follower wait as they do when the pilot flies.
+FlightStatus Autopilot::offered_flight() const {
+  FlightStatus offered = signals_.flight;
+  if (override_ && offered.phase == FlightPhase::kOffboard) offered.phase = FlightPhase::kHold;
+  return offered;
 }
 
 void Autopilot::note_flight() {
@@ -136,8 +212,14 @@ RequestOutcome Autopilot::swap(const SwapModule& wish) {
   for_each_slot([&]<class Base>(const ModuleSlot<Base>& slot) {
     names += (names.empty() ? "" : ", ") + std::string(slot.name);
     if (wish.slot != slot.name) return;
-    outcome = exchange(std::get<std::unique_ptr<Base>&>(places()), config_.*slot.config, wish,
-                       modules_.*slot.kinds, parameters_, signals_);
+    Signals seen = signals_;
+    if constexpr (std::is_same_v<Base, PathManager> || std::is_same_v<Base, TrajectoryFollower>) {
+      seen.flight = offered_flight();
+    }
+    AutopilotConfig::Slot& config = config_.*slot.config;
+    const bool same_kind = config.kind == wish.kind;
+    outcome = exchange(std::get<std::unique_ptr<Base>&>(places()), config, wish, modules_.*slot.kinds,
+                       inheritance(wish, same_kind, parameters_, asked_), parameters_, seen);
   });
   return outcome.value_or(
       RequestOutcome{false, "slot \"" + wish.slot + "\" is unknown; there are: " + names});

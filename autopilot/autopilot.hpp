@@ -58,6 +58,10 @@ class Autopilot {
 
  private:
   RequestOutcome swap(const SwapModule& wish);
+  RequestOutcome set(const SetParameter& wish);
+  RequestOutcome list() const;
+  RequestOutcome fly(const OverrideSetpoint& wish);
+  FlightStatus offered_flight() const;
   void note_flight();
   auto places() {
     return std::tie(estimator_, path_planner_, path_manager_, trajectory_follower_, controller_);
@@ -71,6 +75,7 @@ class Autopilot {
   std::unique_ptr<TrajectoryFollower> trajectory_follower_;
   std::unique_ptr<Controller> controller_;
   ParameterTable parameters_;
+  std::vector<ParameterSetting> asked_;  // by request, the newest value of each
   std::optional<ControlSetpoint> override_;
   std::uint32_t route_revision_ = 0;
   Signals signals_;

@@ -49,16 +49,20 @@ struct TakeOff {};
 struct Land {};
 /// Ends a descent, or the silence after the estimate was lost: holds, then flies on.
 struct Resume {};
+/// Asks for the waypoints that are wanted; the answer has a line for each.
+struct ListRoute {};
 /// Sets one parameter.
 struct SetParameter {
   std::string path;
   ParameterValue value;
 };
 /// Replaces the module in `slot` (estimator, path_planner, path_manager, trajectory_follower, controller) by
-/// one of `kind`.
+/// one of `kind`. The newcomer gets `settings` and whatever the operator has set since, and from a
+/// predecessor of its own kind everything.
 struct SwapModule {
   std::string slot;
   std::string kind;
+  std::vector<ParameterSetting> settings = {};
 };
 /// Flies this setpoint instead of the follower's, at any of the twelve entry points; empty: the follower
 /// flies again.
@@ -66,12 +70,14 @@ struct OverrideSetpoint {
   std::optional<ControlSetpoint> setpoint;
 };
 
-using Request = std::variant<RouteRequest, TakeOff, Land, Resume, SetParameter, SwapModule, OverrideSetpoint>;
+using Request =
+    std::variant<RouteRequest, ListRoute, TakeOff, Land, Resume, SetParameter, SwapModule, OverrideSetpoint>;
 
 /// What became of a request; logged by the bench.
 struct RequestOutcome {
   bool accepted = false;
   std::string reason;
+  std::vector<std::string> answer = {};
 };
 
 }  // namespace ironbird::autopilot

@@ -16,6 +16,13 @@ double limited(double value, double limit) {
   return std::clamp(value, -limit, limit);
 }
 
+/// The horizontal part keeps its direction; z is down.
+Vector3 limited(const Vector3& value, double horizontal, double up, double down) {
+  const double size = std::sqrt(value.x() * value.x() + value.y() * value.y());
+  const double share = size > horizontal ? horizontal / size : 1.0;
+  return {share * value.x(), share * value.y(), std::clamp(value.z(), -up, down)};
+}
+
 }  // namespace
 
 void Cascade::set_params(const CascadeParams& p) {
@@ -64,22 +71,53 @@ FcuCommand Cascade::run_loops(const StateEstimate& estimate, const Step& step, E
     if (used_before[i] && !used_[i]) loops_[i].reset();
     if (used_[i] && !step.integrate) loops_[i].reset_integral();
   }
+  aims_.fill(std::nullopt);
   estimate_ = nullptr;
   return command;
 }
 
 void Cascade::reset() {
   for (Pid& loop : loops_) loop.reset();
+  aims_.fill(std::nullopt);
   lift_ = 0.0;
+}
+
+// A force along -Bz in the present attitude makes an acceleration: what the velocity loops have asked for.
+void Cascade::resume(const FcuCommand& command, const StateEstimate& estimate) {
+  double thrust = 0.0;  // N
+  if (const auto* direct = std::get_if<PassThroughCommand>(&command)) {
+    thrust = direct->thrust;
+    aim_at(direct->M_B);
+  } else if (const auto* angles = std::get_if<AngleCommand>(&command)) {
+    thrust = angles->throttle / params_.equilibrium_throttle * params_.mass * params_.gravity;
+  }
+  if (thrust <= 0.0) return;
+  const Vector3 a_NB_N =
+      estimate.q_NB * Vector3(0.0, 0.0, -thrust / params_.mass) + Vector3(0.0, 0.0, params_.gravity);
+  aims_[kVelN] = a_NB_N.x();
+  aims_[kVelE] = a_NB_N.y();
+  aims_[kVelD] = a_NB_N.z();
+}
+
+void Cascade::aim_at(const Vector3& torque_B) {
+  for (const Loop loop : {kRoll, kRollRate}) aims_[loop] = torque_B.x();
+  for (const Loop loop : {kPitch, kPitchRate}) aims_[loop] = torque_B.y();
+  for (const Loop loop : {kYaw, kYawRate}) aims_[loop] = torque_B.z();
+}
+
+void Cascade::aim(Loop loop, double error, double rate) {
+  if (aims_[loop] && step_.integrate) loops_[loop].aim(error, rate, *aims_[loop]);
 }
 
 double Cascade::run(Loop loop, double error, double rate) {
   used_[loop] = true;
+  aim(loop, error, rate);
   return loops_[loop].run(error, rate, step_.dt, step_.integrate);
 }
 
 double Cascade::run_filtered(Loop loop, double error, double measurement) {
   used_[loop] = true;
+  aim(loop, error, 0.0);
   return loops_[loop].run_filtered(error, measurement, step_.dt, step_.integrate);
 }
 
@@ -119,9 +157,11 @@ FcuCommand Cascade::enter(const PositionClimbHeading& s) {
 
 FcuCommand Cascade::enter(const VelocityHeadingRate& s) {
   const Vector3 v_NB_N = estimate_->v_NB_N();
-  const double north = run_filtered(kVelN, s.v_N.x() - v_NB_N.x(), v_NB_N.x());
-  const double east = run_filtered(kVelE, s.v_N.y() - v_NB_N.y(), v_NB_N.y());
-  const double down = run_filtered(kVelD, s.v_N.z() - v_NB_N.z(), v_NB_N.z());
+  const Vector3 wanted_N =
+      limited(s.v_N, params_.max_horizontal_speed, params_.max_climb_speed, params_.max_descent_speed);
+  const double north = run_filtered(kVelN, wanted_N.x() - v_NB_N.x(), v_NB_N.x());
+  const double east = run_filtered(kVelE, wanted_N.y() - v_NB_N.y(), v_NB_N.y());
+  const double down = run_filtered(kVelD, wanted_N.z() - v_NB_N.z(), v_NB_N.z());
   const double c = std::cos(estimate_->heading);
   const double sine = std::sin(estimate_->heading);
   AccelerationHeadingRate next;
@@ -131,10 +171,12 @@ FcuCommand Cascade::enter(const VelocityHeadingRate& s) {
 }
 
 FcuCommand Cascade::enter(const AccelerationHeadingRate& s) {
-  const double lift = std::max(params_.gravity - s.a_V.z(), kSmallestLift * params_.gravity);  // m/s^2
-  const double magnitude = std::sqrt(s.a_V.x() * s.a_V.x() + s.a_V.y() * s.a_V.y() + lift * lift);
-  const double roll = std::asin(s.a_V.y() / magnitude);
-  const double pitch = std::atan2(-s.a_V.x(), lift);
+  const Vector3 a_V = limited(s.a_V, params_.max_horizontal_acceleration, params_.max_climb_acceleration,
+                              params_.max_descent_acceleration);
+  const double lift = std::max(params_.gravity - a_V.z(), kSmallestLift * params_.gravity);  // m/s^2
+  const double magnitude = std::sqrt(a_V.x() * a_V.x() + a_V.y() * a_V.y() + lift * lift);
+  const double roll = std::asin(a_V.y() / magnitude);
+  const double pitch = std::atan2(-a_V.x(), lift);
   const double upright = std::max(std::cos(estimate_->roll) * std::cos(estimate_->pitch), kSmallestCosine);
   if (step_.thrust_in_newtons) {
     return enter(AngleHeadingRateThrust{roll, pitch, s.heading_rate, params_.mass * lift / upright});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "autopilot/controller/cascade_params.hpp"
 #include "autopilot/types/control_setpoint.hpp"
@@ -34,6 +35,10 @@ class Cascade {
   /// One step of a descent on height and attitude alone: level, no turn, no horizontal loop.
   /// @param v_down  m/s
   FcuCommand sink_level(double v_down, const StateEstimate& estimate, const Step& step);
+
+  /// Lets the next step go on from `command`, the last one of another controller: the integrals are set so
+  /// that, from the present attitude, it asks for the same as far as it can be told from the command.
+  void resume(const FcuCommand& command, const StateEstimate& estimate);
 
   /// Forgets the past of all loops.
   void reset();
@@ -79,6 +84,8 @@ class Cascade {
   double run_filtered(Loop loop, double error, double measurement);
   double yaw_rate_for(double heading);
   bool near_ground() const;
+  void aim(Loop loop, double error, double rate);
+  void aim_at(const Vector3& torque_B);
 
   CascadeParams params_;
   std::array<Pid, kLoops> loops_;
@@ -86,6 +93,7 @@ class Cascade {
   const StateEstimate* estimate_ = nullptr;
   Step step_;
   double lift_ = 0.0;
+  std::array<std::optional<double>, kLoops> aims_{};  // what the loops are to give in the next step
 };
 
 }  // namespace ironbird::autopilot

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "autopilot/math/pid.hpp"
 
 namespace ironbird::autopilot {
@@ -57,6 +59,12 @@ struct CascadeParams {
     describe_gains(self, visit);
   }
 
+  static std::string_view conflict(const CascadeParams& p) {
+    if (p.min_throttle >= p.max_throttle) return "min_throttle must be less than max_throttle";
+    if (p.min_thrust >= p.max_thrust) return "min_thrust must be less than max_thrust";
+    return {};
+  }
+
  private:
   template <class Self, class Visit>
   static void describe_limits(Self& self, Visit& visit) {
@@ -74,16 +82,15 @@ struct CascadeParams {
     visit("max_roll_torque", self.max_roll_torque, "N*m", "greatest roll torque", 0.0, 1e3);
     visit("max_pitch_torque", self.max_pitch_torque, "N*m", "greatest pitch torque", 0.0, 1e3);
     visit("max_yaw_torque", self.max_yaw_torque, "N*m", "greatest yaw torque", 0.0, 1e3);
-    visit("max_horizontal_speed", self.max_horizontal_speed, "m/s", "per axis, of the position loops", 0.1,
-          1e3);
-    visit("max_climb_speed", self.max_climb_speed, "m/s", "of the height loop", 0.1, 1e3);
-    visit("max_descent_speed", self.max_descent_speed, "m/s", "of the height loop", 0.1, 1e3);
+    visit("max_horizontal_speed", self.max_horizontal_speed, "m/s", "greatest horizontal speed", 0.1, 1e3);
+    visit("max_climb_speed", self.max_climb_speed, "m/s", "greatest speed upwards", 0.1, 1e3);
+    visit("max_descent_speed", self.max_descent_speed, "m/s", "greatest speed downwards", 0.1, 1e3);
     visit("max_horizontal_acceleration", self.max_horizontal_acceleration, "m/s^2",
-          "per axis, of the velocity loops", 0.1, 1e3);
-    visit("max_climb_acceleration", self.max_climb_acceleration, "m/s^2", "of the vertical velocity loop",
+          "greatest horizontal acceleration", 0.1, 1e3);
+    visit("max_climb_acceleration", self.max_climb_acceleration, "m/s^2", "greatest acceleration upwards",
           0.1, 1e3);
-    visit("max_descent_acceleration", self.max_descent_acceleration, "m/s^2", "of the vertical velocity loop",
-          0.1, 9.0);
+    visit("max_descent_acceleration", self.max_descent_acceleration, "m/s^2",
+          "greatest acceleration downwards", 0.1, 9.0);
     visit("min_altitude_for_attitude_control", self.min_altitude_for_attitude_control, "m",
           "nearer than this to the origin's height no torque is asked for; 0: always", 0.0, 10.0);
   }

@@ -12,6 +12,9 @@ namespace {
 // So near to the height of the launch the vehicle is more likely on the ground than in the air.
 constexpr double kLow = 1.0;           // m
 constexpr double kShortestRest = 0.3;  // s, which is enough there
+constexpr double kOffGround = 0.3;     // m above the launch: the climb has begun
+// A vehicle that sinks slower than this share of what it was told to is held up by something.
+constexpr double kStoppedShare = 0.4;
 
 bool is_usable(const StateEstimate& estimate) {
   const bool trusted = estimate.health == Health::kGood || estimate.health == Health::kDegraded;
@@ -35,6 +38,7 @@ void CascadedController::reset() {
 void CascadedController::take_over(const Signals& signals) {
   Controller::take_over(signals);
   touch_down_.restore(memory().on_ground);
+  if (!signals.flight.fcu.overridden()) cascade_.resume(signals.command, signals.estimate);
   if (memory().has_point) return;
   notebook().has_point = true;
   notebook().point_N = signals.estimate.p_NB_N;
@@ -82,7 +86,9 @@ FcuCommand CascadedController::control(const ControlSetpoint& setpoint, bool lan
     return SilenceCommand{};
   }
   const bool overridden = status.overridden();
-  if (overridden && step.phase != FlightPhase::kTakeOff && is_usable(estimate)) {
+  const bool stands =
+      step.phase == FlightPhase::kTakeOff && memory().launch_N.z() - estimate.p_NB_N.z() < kOffGround;
+  if (overridden && !stands && is_usable(estimate)) {
     notebook().point_N = estimate.p_NB_N;
     notebook().point_heading = estimate.heading;
   }
@@ -196,7 +202,8 @@ FcuCommand CascadedController::land(FlightPhase phase, const StateEstimate& esti
                                  ? cascade_.sink_level(v_down, estimate, step)
                                  : cascade_.fly(over_the_point, estimate, step);
   if (!overridden) {
-    touch_down_.feel(estimate.stamp, cascade_.lift(), estimate.v_NB_N().z(), params().touch_down_speed,
+    const double stopped = std::min(params().touch_down_speed, kStoppedShare * v_down);
+    touch_down_.feel(estimate.stamp, cascade_.lift(), estimate.v_NB_N().z(), stopped,
                      params().touch_down_lift, params().touch_down_time);
   }
   return command;

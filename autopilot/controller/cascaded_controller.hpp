@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
+#include <string_view>
 
 #include "autopilot/controller/cascade.hpp"
 #include "autopilot/controller/controller.hpp"
@@ -64,6 +66,17 @@ struct CascadedControllerParams : CascadeParams {
     visit("rest_rate", self.rest_rate, "rad/s", "turning slower than this it may", 0.001, 1.0);
     visit("rest_time", self.rest_time, "s",
           "how long both must last under pilot or failsafe, to need a new request to take off", 0.1, 60.0);
+  }
+
+  static std::string_view conflict(const CascadedControllerParams& p) {
+    if (const std::string_view reason = CascadeParams::conflict(p); !reason.empty()) return reason;
+    if (p.touch_down_speed >= std::min(p.landing_speed, p.descent_speed)) {
+      return "touch_down_speed must be less than landing_speed and descent_speed";
+    }
+    if (p.take_off_height_threshold >= p.take_off_height) {
+      return "take_off_height_threshold must be less than take_off_height";
+    }
+    return {};
   }
 };
 

@@ -43,6 +43,14 @@ double Pid::run_filtered(double error, double measurement, double dt, bool integ
   return run(error, derivative_, dt, integrate);
 }
 
+void Pid::aim(double error, double rate, double output) {
+  if (!std::isfinite(error + rate + output) || gains_.ki <= 0.0) return;
+  const double direct = gains_.kp * error - gains_.kd * rate;
+  const bool room = direct > lower_ && direct < upper_;
+  integral_ = room ? (std::clamp(output, lower_, upper_) - direct) / gains_.ki : 0.0;
+  has_error_ = false;
+}
+
 void Pid::reset_integral() {
   integral_ = 0.0;
   has_error_ = false;

@@ -46,6 +46,10 @@ class Pid {
   /// The same, with the rate found from `measurement` by a first-order filtered derivative.
   double run_filtered(double error, double measurement, double dt, bool integrate = true);
 
+  /// Sets the integral so that a step with these arguments gives `output`, as far as limits and gains allow:
+  /// to go on where another loop stopped.
+  void aim(double error, double rate, double output);
+
   /// Forgets the integral.
   void reset_integral();
 

@@ -45,6 +45,9 @@ class Module {
   /// Called after a parameter changed, between two ticks.
   virtual void parameters_changed() {}
 
+  /// Which of the present parameters do not fit together; empty when all do.
+  virtual std::string_view parameter_conflict() const { return {}; }
+
   /// Shows private quantities worth plotting. The names and their order may not change during a run.
   virtual void probe(ProbeVisitor&) const {}
 

@@ -43,6 +43,14 @@ SetOutcome assign(double& slot, const ParameterSlot& limits, const ParameterValu
   return SetOutcome::kAccepted;
 }
 
+ParameterValue value_of(const ParameterSlot& slot) {
+  return std::visit([](const auto* place) { return ParameterValue(*place); }, slot.value);
+}
+
+SetOutcome put(const ParameterSlot& slot, const ParameterValue& value) {
+  return std::visit([&](auto* place) { return assign(*place, slot, value); }, slot.value);
+}
+
 }  // namespace
 
 void ParameterTable::remove(std::string_view prefix) {
@@ -55,13 +63,43 @@ const ParameterSlot* ParameterTable::find(std::string_view path) const {
   return found == slots_.end() ? nullptr : &*found;
 }
 
-SetOutcome ParameterTable::set(std::string_view path, const ParameterValue& value) {
+std::optional<ParameterValue> ParameterTable::get(std::string_view path) const {
+  const ParameterSlot* slot = find(path);
+  if (slot == nullptr) return std::nullopt;
+  return value_of(*slot);
+}
+
+SetOutcome ParameterTable::set(std::string_view path, const ParameterValue& value, std::string* conflict) {
   const ParameterSlot* slot = find(path);
   if (slot == nullptr) return SetOutcome::kUnknown;
-  const SetOutcome outcome =
-      std::visit([&](auto* place) { return assign(*place, *slot, value); }, slot->value);
-  if (outcome == SetOutcome::kAccepted && slot->owner != nullptr) slot->owner->parameters_changed();
+  const ParameterValue before = value_of(*slot);
+  const SetOutcome outcome = put(*slot, value);
+  if (outcome != SetOutcome::kAccepted || slot->owner == nullptr) return outcome;
+  if (const std::string_view reason = slot->owner->parameter_conflict(); !reason.empty()) {
+    put(*slot, before);
+    if (conflict != nullptr) *conflict = reason;
+    return SetOutcome::kConflict;
+  }
+  slot->owner->parameters_changed();
   return outcome;
+}
+
+std::string ParameterTable::set_all(const std::vector<ParameterSetting>& settings) {
+  std::string conflict;
+  for (const auto& [path, value] : settings) {
+    if (const ParameterSlot* slot = find(path)) put(*slot, value);
+  }
+  Module* told = nullptr;
+  for (const auto& [path, value] : settings) {
+    const ParameterSlot* slot = find(path);
+    if (slot == nullptr || slot->owner == nullptr || slot->owner == told) continue;
+    told = slot->owner;
+    const std::string_view reason = told->parameter_conflict();
+    if (!reason.empty() && conflict.empty())
+      conflict = path.substr(0, path.find('.')) + "." + std::string(reason);
+    told->parameters_changed();
+  }
+  return conflict;
 }
 
 }  // namespace ironbird::autopilot

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -29,15 +30,26 @@ struct ParameterSlot {
 };
 
 /// What became of an attempt to set a parameter.
-enum class SetOutcome : std::uint8_t { kAccepted, kUnknown, kWrongType, kOutOfBounds, kNotFinite };
+enum class SetOutcome : std::uint8_t {
+  kAccepted,
+  kUnknown,
+  kWrongType,
+  kOutOfBounds,
+  kNotFinite,
+  kConflict  ///< it does not fit the other parameters of its module
+};
 
-constexpr std::array<std::pair<SetOutcome, std::string_view>, 5> enumerators(SetOutcome) {
+constexpr std::array<std::pair<SetOutcome, std::string_view>, 6> enumerators(SetOutcome) {
   return {{{SetOutcome::kAccepted, "accepted"},
            {SetOutcome::kUnknown, "unknown"},
            {SetOutcome::kWrongType, "wrong type"},
            {SetOutcome::kOutOfBounds, "out of bounds"},
-           {SetOutcome::kNotFinite, "not finite"}}};
+           {SetOutcome::kNotFinite, "not finite"},
+           {SetOutcome::kConflict, "does not fit"}}};
 }
+
+/// A parameter and the value it is to have.
+using ParameterSetting = std::pair<std::string, ParameterValue>;
 
 /// Every parameter of the autopilot under its path, for example `estimator.gnss.sigma_position`.
 class ParameterTable {
@@ -52,7 +64,15 @@ class ParameterTable {
   void remove(std::string_view prefix);
 
   /// Sets one parameter and tells its module. Refused whole, with the reason, or done whole.
-  SetOutcome set(std::string_view path, const ParameterValue& value);
+  /// @param conflict  what does not fit together, after kConflict
+  SetOutcome set(std::string_view path, const ParameterValue& value, std::string* conflict = nullptr);
+
+  /// Sets many parameters; only the last state need fit together. Those that cannot be set are passed over.
+  /// @return what does not fit together, after the prefix of the module; empty when all does
+  std::string set_all(const std::vector<ParameterSetting>& settings);
+
+  /// The value at `path`, or none.
+  std::optional<ParameterValue> get(std::string_view path) const;
 
   /// The slot at `path`, or null.
   const ParameterSlot* find(std::string_view path) const;

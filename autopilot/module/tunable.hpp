@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "autopilot/module/module.hpp"
@@ -10,7 +11,8 @@ namespace ironbird::autopilot {
 /// Gives a module a plain, described struct of parameters that can be read and changed by path.
 ///
 /// @tparam Base    the module interface, for example Estimator
-/// @tparam Params  a struct with `describe`; its member initialisers are the defaults
+/// @tparam Params  a struct with `describe`; its member initialisers are the defaults. When some values do
+///                 not fit together it has `static std::string_view conflict(const Params&)`
 template <class Base, class Params>
 class Tunable : public Base {
  public:
@@ -29,6 +31,13 @@ class Tunable : public Base {
     table.add(prefix, params_, this);
   }
   void parameters_changed() final { on_parameters(); }
+  std::string_view parameter_conflict() const final {
+    if constexpr (requires { Params::conflict(params_); }) {
+      return Params::conflict(params_);
+    } else {
+      return {};
+    }
+  }
 
  protected:
   /// Rebuilds constants derived from the parameters. Called after every change, between two ticks.

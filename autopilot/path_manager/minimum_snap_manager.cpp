@@ -29,11 +29,11 @@ std::uint32_t MinimumSnapManager::depart(const Departure& departure, const Route
     trajectory_.add(to.p_N, to.heading, to.speed > 0.0 ? to.speed : params().max_velocity);
     const bool begins_here = last == first && is_near(departure.p_N, to.p_N);
     stops = begins_here || to.kind != WaypointKind::kGoto || last + 1 == count ||
-            trajectory_.segments() == MinimumSnapTrajectory::kMostSegments ||
+            trajectory_.legs() == MinimumSnapTrajectory::kMostLegs ||
             is_near(to.p_N, route.waypoints[last + 1].p_N);
   }
-  trajectory_.solve(params());
-  return last - 1;
+  const std::size_t legs = trajectory_.solve(params(), params().max_excursion);
+  return first + static_cast<std::uint32_t>(legs) - 1;
 }
 
 }  // namespace ironbird::autopilot

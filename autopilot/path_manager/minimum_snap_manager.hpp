@@ -9,19 +9,22 @@ namespace ironbird::autopilot {
 /// Constants of the minimum-snap manager.
 struct MinimumSnapManagerParams : MotionLimits {
   double waypoint_tolerance = 0.5;
+  double max_excursion = 1.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     MotionLimits::describe(self, visit);
     visit("waypoint_tolerance", self.waypoint_tolerance, "m",
           "distance at which a waypoint to stop at is reached", 0.01, 100.0);
+    visit("max_excursion", self.max_excursion, "m",
+          "how far the way may stray from the straight line between two waypoints", 0.05, 1e3);
   }
 };
 
 /// Flies through the waypoints without stopping, on a trajectory of least snap, up to the next hold, landing
-/// or end of the route. It stops as well where two waypoints share a place, and after every kMostSegments
-/// waypoints. In a cyclic route it stops at the last waypoint. When the route changes under way it brakes and
-/// plans anew.
+/// or end of the route. It stops as well where two waypoints share a place, where flying through would stray
+/// too far, and after every kMostLegs waypoints. In a cyclic route it stops at the last waypoint. When the
+/// route changes under way it brakes and plans anew.
 class MinimumSnapManager final : public Tunable<SequencedManager, MinimumSnapManagerParams> {
  public:
   MinimumSnapManager() { on_parameters(); }

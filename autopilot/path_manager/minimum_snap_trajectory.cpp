@@ -12,6 +12,13 @@ namespace ironbird::autopilot {
 namespace {
 
 constexpr int kSamplesPerSegment = 64;
+// Halves, quarters, eighths of a leg.
+constexpr int kMostTies = 3;
+// Plans that may be dropped for a shorter one before a single leg is flown: it bounds the work.
+constexpr int kMostAttempts = 3;
+constexpr int kBalancingRounds = 8;
+constexpr double kLeastPriceRatio = 1e-3;  // so that no step goes beyond a factor of 2.4
+constexpr double kShortestShare = 0.7;     // of what the segment would last alone
 // Between two of the samples a peak of a polynomial of degree 7 rises by less than this.
 constexpr double kSampleMargin = 1.005;
 
@@ -74,36 +81,123 @@ Eigen::DiagonalMatrix<double, 3> to_seconds(double duration) {
 }  // namespace
 
 void MinimumSnapTrajectory::begin(const Vector3& p_N, double heading) {
-  segments_ = 0;
+  legs_ = segments_ = 0;
   ends_[0] = 0.0;
-  knots_[0] << p_N, heading;
+  places_[0] << p_N, heading;
 }
 
 void MinimumSnapTrajectory::add(const Vector3& p_N, double heading, double max_speed) {
-  assert(segments_ < kMostSegments);
-  max_speeds_[segments_] = max_speed;
-  ++segments_;
-  knots_[segments_] << p_N, unwrap_near(heading, knots_[segments_ - 1](3));
+  assert(legs_ < kMostLegs);
+  max_speeds_[legs_] = max_speed;
+  ++legs_;
+  places_[legs_] << p_N, unwrap_near(heading, places_[legs_ - 1](3));
 }
 
-void MinimumSnapTrajectory::solve(const MotionLimits& limits) {
-  allot(limits);
-  if (duration() <= 0.0) return;
+std::size_t MinimumSnapTrajectory::solve(const MotionLimits& limits, double max_excursion) {
+  for (int attempt = 1; legs_ > 0; ++attempt) {
+    const std::size_t stray = stray_leg(limits, max_excursion);
+    if (stray == legs_) break;
+    legs_ = attempt == kMostAttempts ? 1 : std::max<std::size_t>(stray, 1);
+  }
+  if (duration() > 0.0) stretch(limits);
+  return legs_;
+}
+
+// Plans all legs; the first of them that strays too far although it is tied, or legs_.
+std::size_t MinimumSnapTrajectory::stray_leg(const MotionLimits& limits, double max_excursion) {
+  pieces_.fill(1);
+  for (int ties = 0;; ++ties) {
+    lay_out(limits);
+    if (duration() <= 0.0) return legs_;
+    balance(limits);
+    const std::array<std::size_t, kMostLegs> before = pieces_;
+    const bool fits = tie(max_excursion);
+    const auto stray = std::mismatch(before.begin(), before.end(), pieces_.begin()).first;
+    if (stray == before.end()) return legs_;
+    if (!fits || ties == kMostTies) return static_cast<std::size_t>(stray - before.begin());
+  }
+}
+
+// Doubles the pieces of the legs that stray. False when there would be too many.
+bool MinimumSnapTrajectory::tie(double max_excursion) {
+  std::array<bool, kMostLegs> strays{};
+  for (std::size_t i = 0; i < segments_; ++i) {
+    if (excursion(i) > max_excursion) strays[leg_of_[i]] = true;
+  }
+  std::size_t total = 0;
+  for (std::size_t leg = 0; leg < legs_; ++leg) {
+    if (strays[leg]) pieces_[leg] *= 2;
+    total += pieces_[leg];
+  }
+  return total <= kMostSegments;
+}
+
+void MinimumSnapTrajectory::lay_out(const MotionLimits& limits) {
+  segments_ = 0;
+  knots_[0] = places_[0];
+  for (std::size_t leg = 0; leg < legs_; ++leg) {
+    const auto pieces = static_cast<double>(pieces_[leg]);
+    const double usual = usual_duration(leg, limits) / pieces;
+    for (std::size_t piece = 1; piece <= pieces_[leg]; ++piece) {
+      leg_of_[segments_] = leg;
+      usual_[segments_] = usual;
+      ends_[segments_ + 1] = ends_[segments_] + usual;
+      ++segments_;
+      const double share = static_cast<double>(piece) / pieces;
+      knots_[segments_] = places_[leg] + share * (places_[leg + 1] - places_[leg]);
+    }
+    knots_[segments_] = places_[leg + 1];
+  }
+}
+
+double MinimumSnapTrajectory::usual_duration(std::size_t leg, const MotionLimits& limits) const {
+  const Knot way = places_[leg + 1] - places_[leg];
+  const double speed = std::min(max_speeds_[leg], limits.max_velocity);
+  return std::max(
+      smoothstep_duration(way.head<3>().norm(), speed, limits.max_acceleration),
+      smoothstep_duration(std::abs(way(3)), limits.max_heading_rate, limits.max_heading_acceleration));
+}
+
+void MinimumSnapTrajectory::fit() {
   solve_slopes();
   fill_coefficients();
-  stretch(limits);
 }
 
-void MinimumSnapTrajectory::allot(const MotionLimits& limits) {
-  for (std::size_t i = 0; i < segments_; ++i) {
-    const Knot way = knots_[i + 1] - knots_[i];
-    const double distance = way.head<3>().norm();
-    const double turn = std::abs(way(3));
-    const double speed = std::min(max_speeds_[i], limits.max_velocity);
-    ends_[i + 1] = ends_[i] + std::max(smoothstep_duration(distance, speed, limits.max_acceleration),
-                                       smoothstep_duration(turn, limits.max_heading_rate,
-                                                           limits.max_heading_acceleration));
+// At the optimum the price of time is the same everywhere. Alone, a segment's price falls with the eighth
+// power of its duration: the step to take is the eighth root of how far it is off.
+void MinimumSnapTrajectory::balance(const MotionLimits& limits) {
+  const double heading_weight = limits.max_velocity / limits.max_heading_rate;  // m/rad
+  fit();
+  for (int round = 0; round < kBalancingRounds && segments_ > 1; ++round) {
+    std::array<double, kMostSegments> prices;
+    double mean = 0.0;
+    for (std::size_t i = 0; i < segments_; ++i) {
+      prices[i] = std::max(price(i, heading_weight), 0.0);
+      mean += prices[i] * duration_of(i) / duration();
+    }
+    if (!(mean > 0.0)) return;
+    double begin = 0.0;
+    for (std::size_t i = 0; i < segments_; ++i) {
+      const double off = std::clamp(prices[i] / mean, kLeastPriceRatio, 1.0 / kLeastPriceRatio);
+      const double step = std::sqrt(std::sqrt(std::sqrt(off)));
+      const double duration = std::max(step * (ends_[i + 1] - begin), kShortestShare * usual_[i]);
+      begin = ends_[i + 1];
+      ends_[i + 1] = ends_[i] + duration;
+    }
+    fit();
   }
+}
+
+// What a shorter segment would cost: minus the derivative of its integral of squared snap to its duration,
+// with everything at its ends held. It is constant along the segment, as the Hamiltonian of the problem:
+// x4 x4 - 2 x3 x5 + 2 x2 x6 - 2 x1 x7 with xn the n-th derivative, here at the start.
+double MinimumSnapTrajectory::price(std::size_t i, double heading_weight) const {
+  const Coefficients& c = coefficients_[i];
+  const Knot each = 576.0 * c.col(4).cwiseAbs2() - 1440.0 * c.col(3).cwiseProduct(c.col(5)) +
+                    2880.0 * c.col(2).cwiseProduct(c.col(6)) - 10080.0 * c.col(1).cwiseProduct(c.col(7));
+  const double squared = duration_of(i) * duration_of(i);
+  const double fourth = squared * squared;
+  return (each.head<3>().sum() + heading_weight * heading_weight * each(3)) / (fourth * fourth);
 }
 
 void MinimumSnapTrajectory::solve_slopes() {
@@ -156,7 +250,7 @@ void MinimumSnapTrajectory::fill_coefficients() {
 }
 
 double MinimumSnapTrajectory::excess(std::size_t i, const MotionLimits& limits) const {
-  const double speed = std::min(max_speeds_[i], limits.max_velocity);
+  const double speed = std::min(max_speeds_[leg_of_[i]], limits.max_velocity);
   double most = 0.0;
   for (int sample = 0; sample <= kSamplesPerSegment; ++sample) {
     const double share = static_cast<double>(sample) / kSamplesPerSegment;
@@ -168,6 +262,21 @@ double MinimumSnapTrajectory::excess(std::size_t i, const MotionLimits& limits) 
   return most;
 }
 
+// Greatest distance of segment `i` from the chord of its leg, m.
+double MinimumSnapTrajectory::excursion(std::size_t i) const {
+  const Vector3 from_N = places_[leg_of_[i]].head<3>();
+  const Vector3 chord_N = places_[leg_of_[i] + 1].head<3>() - from_N;
+  const double length_squared = chord_N.squaredNorm();
+  double most = 0.0;
+  for (int sample = 0; sample < kSamplesPerSegment; ++sample) {
+    const double share = static_cast<double>(sample) / kSamplesPerSegment;
+    const Vector3 gone_N = evaluate(ends_[i] + share * duration_of(i)).p_N - from_N;
+    const double along = length_squared > 0.0 ? gone_N.dot(chord_N) / length_squared : 0.0;
+    most = std::max(most, (gone_N - std::clamp(along, 0.0, 1.0) * chord_N).norm());
+  }
+  return most;
+}
+
 void MinimumSnapTrajectory::stretch(const MotionLimits& limits) {
   double factor = 0.0;
   for (std::size_t i = 0; i < segments_; ++i) factor = std::max(factor, excess(i, limits));
@@ -175,20 +284,26 @@ void MinimumSnapTrajectory::stretch(const MotionLimits& limits) {
   for (std::size_t i = 0; i <= segments_; ++i) ends_[i] *= factor;
 }
 
+double MinimumSnapTrajectory::end_of(std::size_t i) const {
+  std::size_t end = 0;
+  while (end < segments_ && leg_of_[end] <= i) ++end;
+  return ends_[end];
+}
+
 MotionPoint MinimumSnapTrajectory::evaluate(double elapsed) const {
   const auto first_end = ends_.begin() + 1;
   const auto last_end = first_end + static_cast<std::ptrdiff_t>(segments_);
   const auto found = std::upper_bound(first_end, last_end, elapsed);
   MotionPoint point;
-  point.passed = static_cast<std::uint32_t>(found - first_end);
+  const auto i = static_cast<std::size_t>(found - first_end);
   point.ended = found == last_end;
+  point.passed = static_cast<std::uint32_t>(point.ended ? legs_ : leg_of_[i]);
   if (point.ended || elapsed < 0.0) {
     const Knot& knot = point.ended ? knots_[segments_] : knots_[0];
     point.p_N = knot.head<3>();
     point.heading = wrap(knot(3));
     return point;
   }
-  const std::size_t i = point.passed;
   const Coefficients& c = coefficients_[i];
   const double per_second = 1.0 / duration_of(i);
   const double tau = (elapsed - ends_[i]) * per_second;

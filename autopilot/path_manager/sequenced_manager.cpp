@@ -20,6 +20,18 @@ MotionPoint resting_at(const Vector3& p_N, double heading) {
   return point;
 }
 
+Time time_from(double seconds) {
+  return Time{static_cast<Time::rep>(seconds * 1e9 + 0.5)};
+}
+
+std::optional<Time> time_from(const std::optional<double>& seconds) {
+  return seconds ? std::optional<Time>(time_from(*seconds)) : std::nullopt;
+}
+
+std::optional<double> seconds_of(const std::optional<Time>& time) {
+  return time ? std::optional<double>(seconds(*time)) : std::nullopt;
+}
+
 std::uint32_t size_of(const Route& route) {
   return static_cast<std::uint32_t>(route.waypoints.size());
 }
@@ -28,15 +40,19 @@ std::uint32_t size_of(const Route& route) {
 
 void SequencedManager::reset() {
   PathManager::reset();
-  restart();
+  flown_ = true;
+  wait_on_ground();
+  now_ = Time{0};
   revision_ = released_ = holds_ = newest_id_ = size_ = 0;
   target_ = Waypoint{};
 }
 
-void SequencedManager::restart() {
+void SequencedManager::wait_on_ground() {
   mode_ = Mode::kAway;
   index_ = reached_ = 0;
-  counted_ = departed_ = pause_ = on_motion_ = replan_ = false;
+  counted_ = departed_ = on_motion_ = replan_ = false;
+  if (flown_) pause_ = false;  // a hold of the flight before; one asked for on the ground is kept
+  flown_ = false;
 }
 
 void SequencedManager::take_over(const Signals& signals) {
@@ -49,8 +65,12 @@ void SequencedManager::take_over(const Signals& signals) {
   index_ = std::min(last.leg, size_);
   if (index_ < size_) target_ = signals.route.waypoints[index_];
   reached_ = last.reached;
-  counted_ = last.holding || last.finished || last.landing;
+  counted_ = last.at_waypoint;
+  hold_left_ = time_from(last.hold_left);
+  pause_ = last.paused;
+  pause_left_ = time_from(last.pause_left);
   departed_ = true;
+  flown_ = signals.flight.companion_flies();
   now_ = last.stamp;
   if (!signals.flight.companion_flies() || !last.valid) return;
   MotionPoint from = resting_at(last.p_N, last.heading);
@@ -65,7 +85,8 @@ void SequencedManager::probe(ProbeVisitor& visit) const {
 }
 
 TrajectoryPoint SequencedManager::follow(const Route& route, const StateEstimate& estimate,
-                                         const FlightStatus& flight, double /*dt*/) {
+                                         const FlightStatus& flight, double dt) {
+  const Time since_last = dt > 0.0 ? estimate.stamp - now_ : Time{0};
   now_ = estimate.stamp;
   if (!is_usable(estimate.health)) {
     mode_ = Mode::kAway;
@@ -75,7 +96,8 @@ TrajectoryPoint SequencedManager::follow(const Route& route, const StateEstimate
   }
   const bool waits = !rules_.never_waits && !flight.companion_flies();
   const bool on_ground = flight.phase == FlightPhase::kDisarmed || flight.phase == FlightPhase::kTakeOff;
-  if (waits && on_ground) restart();
+  if (waits && on_ground) wait_on_ground();
+  flown_ = flown_ || !waits;
   notice(route);
   if (waits || (mode_ == Mode::kAway && size_ == 0)) {
     mode_ = Mode::kAway;
@@ -83,15 +105,32 @@ TrajectoryPoint SequencedManager::follow(const Route& route, const StateEstimate
     here.valid = size_ > 0;
     return here;
   }
+  pass_time(since_last);
   if (mode_ == Mode::kAway) begin(route, estimate);
   step(route, estimate);
   return point_of(reference());
 }
 
+void SequencedManager::pass_time(Time since_last) {
+  if (mode_ == Mode::kHold && hold_left_ && !pause_) *hold_left_ -= since_last;
+  if (mode_ == Mode::kPause && pause_left_) *pause_left_ -= since_last;
+  const bool moves = mode_ == Mode::kBrake || on_motion_;
+  if (moves && !rules_.never_waits)
+    began_ += std::max(since_last - std::max(kLongestStep, period()), Time{0});
+}
+
 void SequencedManager::notice(const Route& route) {
   released_now_ = route.released != released_;
   released_ = route.released;
-  if (route.holds != holds_) pause_ = true;
+  // Whoever has the vehicle, a release ends what waits for one.
+  if (released_now_ && mode_ == Mode::kAway) {
+    pause_ = false;
+    hold_left_ = Time{0};
+  }
+  if (route.holds != holds_) {
+    pause_ = true;
+    pause_left_ = time_from(route.hold_time);
+  }
   holds_ = route.holds;
   if (route.revision != revision_) find_place(route);
   revision_ = route.revision;
@@ -143,14 +182,11 @@ void SequencedManager::step(const Route& route, const StateEstimate& estimate) {
   if (!stopping && (pause_ || replan_)) brake(reference());
   replan_ = false;
   if (mode_ == Mode::kBrake) step_brake(route);
-  if (mode_ == Mode::kPause && over(route.hold_time)) {
+  if (mode_ == Mode::kPause && over(pause_left_)) {
     pause_ = false;
     leave(route, rest_.p_N, rest_.heading);
   }
-  if (mode_ == Mode::kHold) {
-    const Waypoint& hold = route.waypoints[index_];
-    if (over(hold.hold_indefinitely ? std::nullopt : std::optional<double>(hold.hold_time))) advance(route);
-  }
+  if (mode_ == Mode::kHold && over(hold_left_)) advance(route);
   if (mode_ == Mode::kDone) fly_on(route);
   if (mode_ == Mode::kMotion) step_motion(route, estimate);
 }
@@ -187,10 +223,13 @@ void SequencedManager::step_motion(const Route& route, const StateEstimate& esti
 }
 
 void SequencedManager::arrive(const Route& route) {
-  if (!counted_) ++reached_;
+  const Waypoint& here = route.waypoints[index_];
+  if (!counted_) {
+    ++reached_;
+    hold_left_ = here.hold_indefinitely ? std::nullopt : std::optional<Time>(time_from(here.hold_time));
+  }
   counted_ = true;
-  hold_began_ = now_;
-  switch (route.waypoints[index_].kind) {
+  switch (here.kind) {
     case WaypointKind::kGoto:
       advance(route);
       break;
@@ -239,11 +278,10 @@ void SequencedManager::rest(Mode mode, const MotionPoint& where) {
   mode_ = mode;
   rest_ = where;
   on_motion_ = false;
-  hold_began_ = now_;
 }
 
-bool SequencedManager::over(const std::optional<double>& duration) const {
-  return released_now_ || (duration && seconds(now_ - hold_began_) >= *duration);
+bool SequencedManager::over(const std::optional<Time>& left) const {
+  return released_now_ || (left && *left <= Time{0});
 }
 
 MotionPoint SequencedManager::reference() const {
@@ -263,6 +301,10 @@ TrajectoryPoint SequencedManager::point_of(const MotionPoint& motion) const {
   point.heading_acceleration = motion.heading_acceleration;
   point.leg = index_;
   point.reached = reached_;
+  point.at_waypoint = counted_;
+  if (counted_) point.hold_left = seconds_of(hold_left_);
+  point.paused = pause_;
+  if (pause_) point.pause_left = seconds_of(pause_left_);
   point.holding = mode_ == Mode::kHold || mode_ == Mode::kPause;
   point.finished = mode_ == Mode::kDone;
   point.landing = mode_ == Mode::kLand;

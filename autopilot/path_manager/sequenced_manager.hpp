@@ -16,12 +16,19 @@ namespace ironbird::autopilot {
 /// * The next motion begins at the waypoint, when the one before has ended and the vehicle is within
 /// tolerance.
 /// * A route that changes under way, and a hold on the spot, brake along the present direction first.
-/// * Disarmed and during take-off the route waits at its first waypoint.
+/// * Disarmed and during take-off the route waits at its first waypoint; a hold asked for meanwhile begins
+/// when the companion begins to fly.
+/// * A hold on the spot interrupts a hold at a waypoint, which then goes on where it was; asked for again, it
+/// begins anew.
+/// * When the estimates stop coming for longer than kLongestStep, the motion waits with them.
 /// ROScopter paper, path manager; holds, landing, editing under way and overrides are ours.
 class SequencedManager : public PathManager {
  public:
   /// Speed above which the reference does not start from rest, m/s.
   static constexpr double kMovingSpeed = 0.5;
+
+  /// A motion goes on by no more than this in one step, unless the period is longer.
+  static constexpr Time kLongestStep = std::chrono::milliseconds(20);
 
   void reset() override;
   void take_over(const Signals& signals) override;
@@ -61,7 +68,8 @@ class SequencedManager : public PathManager {
  private:
   enum class Mode : std::uint8_t { kAway, kMotion, kHold, kBrake, kPause, kDone, kLand };
 
-  void restart();
+  void wait_on_ground();
+  void pass_time(Time since_last);
   void notice(const Route& route);
   void find_place(const Route& route);
   void begin(const Route& route, const StateEstimate& estimate);
@@ -74,15 +82,17 @@ class SequencedManager : public PathManager {
   void leave(const Route& route, const Vector3& p_N, double heading);
   void brake(const MotionPoint& from);
   void rest(Mode mode, const MotionPoint& where);
-  bool over(const std::optional<double>& duration) const;
+  bool over(const std::optional<Time>& left) const;
   MotionPoint reference() const;
   TrajectoryPoint point_of(const MotionPoint& motion) const;
 
   Rules rules_;
   Mode mode_ = Mode::kAway;
   Time now_{0};
-  Time began_{0};       // of the motion or the brake
-  Time hold_began_{0};  // of the hold or the pause
+  Time began_{0};                  // of the motion or the brake
+  std::optional<Time> hold_left_;  // of the hold at the waypoint `index_`; none: until released
+  std::optional<Time> pause_left_;
+  bool flown_ = false;  // the companion has flown since the vehicle was on the ground
   bool on_motion_ = false;
   Brake brake_;
   MotionPoint rest_;
@@ -92,7 +102,7 @@ class SequencedManager : public PathManager {
   std::uint32_t reached_ = 0;
   bool counted_ = false;  // the waypoint `index_` is among `reached_`
   bool departed_ = false;
-  bool pause_ = false;
+  bool pause_ = false;  // a hold on the spot was asked for and is not over
   bool released_now_ = false;
   bool replan_ = false;
   std::uint32_t revision_ = 0;

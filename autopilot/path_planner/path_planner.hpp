@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "autopilot/module/module.hpp"
 #include "autopilot/request.hpp"
 #include "autopilot/types/flight_status.hpp"
@@ -17,6 +19,9 @@ class PathPlanner : public Module {
   /// Applies an operator's wish that concerns the route. @return false, with nothing changed, when it cannot
   /// be done.
   virtual bool request(const RouteRequest& request, const StateEstimate& estimate) = 0;
+
+  /// The waypoints that the operator wants; not yet in force when one of them waits for an origin.
+  virtual const std::vector<Waypoint>& wanted() const = 0;
 
   void reset() override;
 

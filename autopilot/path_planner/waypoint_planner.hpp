@@ -34,8 +34,7 @@ class WaypointPlanner final : public Tunable<PathPlanner, WaypointPlannerParams>
   void reset() override;
   void take_over(const Signals& signals) override;
 
-  /// The waypoints that the operator wants; not yet in force when one of them waits for an origin.
-  const std::vector<Waypoint>& wanted() const { return wanted_; }
+  const std::vector<Waypoint>& wanted() const override { return wanted_; }
   bool waits_for_origin() const { return waiting_; }
 
  protected:

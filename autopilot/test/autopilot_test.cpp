@@ -9,61 +9,14 @@
 #include <stdexcept>
 
 #include "autopilot/math/finite.hpp"
-#include "autopilot/test/little_vehicle.hpp"
+#include "autopilot/test/autopilot_flight.hpp"
 
 namespace ironbird::autopilot {
 namespace {
 
 using ::testing::HasSubstr;
 
-AutopilotConfig on_external_pose() {
-  AutopilotConfig config;
-  config.estimator.kind = "external_pose";
-  return config;
-}
-
-Waypoint place(double north, double east, double down, WaypointKind kind = WaypointKind::kGoto) {
-  Waypoint waypoint;
-  waypoint.p_N << north, east, down;
-  waypoint.kind = kind;
-  return waypoint;
-}
-
-/// An autopilot around the little vehicle.
-class AutopilotTest : public ::testing::Test {
- protected:
-  const Signals& step() {
-    vehicle_.fly(autopilot_.step(vehicle_.frame()));
-    return autopilot_.signals();
-  }
-
-  template <class Done>
-  bool until(double seconds, Done&& done) {
-    for (int i = 0; i < seconds / 0.0025; ++i) {
-      if (done(step())) return true;
-    }
-    return false;
-  }
-
-  void fly(double seconds) {
-    until(seconds, [](const Signals&) { return false; });
-  }
-
-  void ask(const Request& request) {
-    const RequestOutcome outcome = autopilot_.request(request);
-    ASSERT_TRUE(outcome.accepted) << outcome.reason;
-  }
-
-  void take_off() {
-    vehicle_.status.armed = true;
-    step();
-    ask(TakeOff{});
-    ASSERT_TRUE(until(10.0, [](const Signals& s) { return s.flight.phase == FlightPhase::kHold; }));
-  }
-
-  Autopilot autopilot_{on_external_pose(), standard_modules()};
-  LittleVehicle vehicle_;
-};
+class AutopilotTest : public AutopilotFlight {};
 
 TEST_F(AutopilotTest, FliesTheMissionOfThePaperAndLands) {
   ask(RouteRequest{
@@ -291,6 +244,46 @@ TEST_F(AutopilotTest, RefusesSwapsThatCannotBeAndKeepsFlying) {
   EXPECT_THAT(autopilot_.request(SwapModule{"engine", "warp"}).reason, HasSubstr("trajectory_follower"));
   EXPECT_NE(autopilot_.parameters().find("controller.mass"), nullptr);
   step();
+}
+
+TEST_F(AutopilotTest, ListsTheWaypointsThatAreWanted) {
+  Waypoint second = place(-20, 0.5, -8, WaypointKind::kHold);
+  second.hold_time = 10.0;
+  second.speed = 1.5;
+  ask(RouteRequest{SetRoute{{place(0, 0, -5), second}, false}});
+  const RequestOutcome outcome = autopilot_.request(ListRoute{});
+  ASSERT_TRUE(outcome.accepted);
+  ASSERT_EQ(outcome.answer.size(), 2u);
+  EXPECT_EQ(outcome.answer[0], "0: goto at (0.00, 0.00, -5.00) m, heading 0.00 rad");
+  EXPECT_EQ(outcome.answer[1],
+            "1: hold at (-20.00, 0.50, -8.00) m, heading 0.00 rad, at most 1.50 m/s, for 10.00 s");
+}
+
+TEST_F(AutopilotTest, RefusesASetpointWhileItDescendsUntilAskedToResume) {
+  ask(RouteRequest{SetRoute{{place(0, 0, -5)}, false}});
+  take_off();
+  fly(8.0);
+  ask(Land{});
+  fly(1.0);
+  const RequestOutcome refused =
+      autopilot_.request(OverrideSetpoint{PositionHeading{Vector3(0, 0, -9), 0.0}});
+  EXPECT_FALSE(refused.accepted);
+  EXPECT_THAT(refused.reason, HasSubstr("resume"));
+  ask(Resume{});
+  step();
+  ask(OverrideSetpoint{PositionHeading{Vector3(0, 0, -9), 0.0}});
+  fly(10.0);
+  EXPECT_LT((vehicle_.p_NB_N - Vector3(0, 0, -9)).norm(), 0.3);
+}
+
+TEST_F(AutopilotTest, RefusesParametersThatDoNotFitTogether) {
+  ask(SetParameter{"controller.min_throttle", 0.9});
+  const RequestOutcome refused = autopilot_.request(SetParameter{"controller.max_throttle", 0.2});
+  EXPECT_FALSE(refused.accepted);
+  EXPECT_THAT(refused.reason, HasSubstr("min_throttle must be less than max_throttle"));
+  EXPECT_FALSE(autopilot_.request(SetParameter{"controller.landing_speed", 0.1}).accepted)
+      << "slower than what is felt as the ground";
+  EXPECT_FALSE(autopilot_.request(SetParameter{"trajectory_follower.max_thrust", 1.0}).accepted);
 }
 
 TEST_F(AutopilotTest, RefusesParametersWithAReason) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "autopilot/math/angles.hpp"
+#include "autopilot/signals.hpp"
 #include "autopilot/trajectory_follower/flatness.hpp"
 
 namespace ironbird::autopilot {
@@ -70,17 +71,43 @@ ControlSetpoint FlatPidFollower::track(const TrajectoryPoint& point, const State
   return flat_inverse(specific_force_N_, estimate.heading, turn, p.mass);
 }
 
-Vector3 FlatPidFollower::acceleration(const TrajectoryPoint& point, const StateEstimate& estimate, double dt,
-                                      bool integrate) {
-  const Vector3 v_NB_N = estimate.v_NB_N();
-  const Vector3 rate_N = params().use_velocity_reference ? Vector3(v_NB_N - point.v_N) : v_NB_N;
+void FlatPidFollower::take_over(const Signals& signals) {
+  const auto* asked = std::get_if<AngleHeadingRateThrust>(&signals.setpoint);
+  const bool flew = signals.flight.companion_flies() && signals.trajectory.valid;
+  if (asked == nullptr || !flew || !is_usable(signals.estimate.health)) return;
+  const StateEstimate& estimate = signals.estimate;
+  const TrajectoryPoint& point = signals.trajectory;
+  const Vector3 u_N = specific_force(*asked, estimate.heading, params().mass);
+  const Vector3 by_loops_N = u_N + Vector3(0.0, 0.0, params().gravity) - fed_forward(point);
+  const Vector3 error_N = position_error(point, estimate);
+  const Vector3 rate_N = rate(point, estimate);
+  north_.aim(error_N.x(), rate_N.x(), by_loops_N.x());
+  east_.aim(error_N.y(), rate_N.y(), by_loops_N.y());
+  down_.aim(error_N.z(), rate_N.z(), by_loops_N.z());
+}
+
+Vector3 FlatPidFollower::position_error(const TrajectoryPoint& point, const StateEstimate& estimate) const {
   Vector3 error_N = point.p_N - estimate.p_NB_N;
   error_N.z() = std::min(error_N.z(), params().down_command_window);
-  const Vector3 against_drag_N = params().drag * Vector3(point.v_N.x(), point.v_N.y(), 0.0);
-  return point.a_N + against_drag_N +
-         Vector3(north_.run(error_N.x(), rate_N.x(), dt, integrate),
-                 east_.run(error_N.y(), rate_N.y(), dt, integrate),
-                 down_.run(error_N.z(), rate_N.z(), dt, integrate));
+  return error_N;
+}
+
+Vector3 FlatPidFollower::rate(const TrajectoryPoint& point, const StateEstimate& estimate) const {
+  const Vector3 v_NB_N = estimate.v_NB_N();
+  return params().use_velocity_reference ? Vector3(v_NB_N - point.v_N) : v_NB_N;
+}
+
+Vector3 FlatPidFollower::fed_forward(const TrajectoryPoint& point) const {
+  return point.a_N + params().drag * Vector3(point.v_N.x(), point.v_N.y(), 0.0);
+}
+
+Vector3 FlatPidFollower::acceleration(const TrajectoryPoint& point, const StateEstimate& estimate, double dt,
+                                      bool integrate) {
+  const Vector3 rate_N = rate(point, estimate);
+  const Vector3 error_N = position_error(point, estimate);
+  return fed_forward(point) + Vector3(north_.run(error_N.x(), rate_N.x(), dt, integrate),
+                                      east_.run(error_N.y(), rate_N.y(), dt, integrate),
+                                      down_.run(error_N.z(), rate_N.z(), dt, integrate));
 }
 
 double FlatPidFollower::heading_rate(const TrajectoryPoint& point, const StateEstimate& estimate, double dt,

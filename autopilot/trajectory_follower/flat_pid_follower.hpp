@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "autopilot/math/pid.hpp"
 #include "autopilot/module/tunable.hpp"
 #include "autopilot/trajectory_follower/trajectory_follower.hpp"
@@ -46,6 +48,11 @@ struct FlatPidFollowerParams {
     visit("max_thrust", self.max_thrust, "N", "greatest thrust", 0.1, 1e4);
     visit("max_heading_rate", self.max_heading_rate, "rad/s", "greatest yaw rate", 0.05, 100.0);
   }
+
+  static std::string_view conflict(const FlatPidFollowerParams& p) {
+    if (p.min_thrust >= p.max_thrust) return "min_thrust must be less than max_thrust";
+    return {};
+  }
 };
 
 /// PID on the position in N with velocity and acceleration of the trajectory fed forward, turned into
@@ -59,6 +66,8 @@ class FlatPidFollower final : public Tunable<TrajectoryFollower, FlatPidFollower
   FlatPidFollower() { on_parameters(); }
 
   void reset() override;
+  /// Goes on from the specific force that was asked for last; the heading has no integral worth keeping.
+  void take_over(const Signals& signals) override;
   void probe(ProbeVisitor& visit) const override;
 
  protected:
@@ -71,6 +80,9 @@ class FlatPidFollower final : public Tunable<TrajectoryFollower, FlatPidFollower
                        bool integrate);
   double heading_rate(const TrajectoryPoint& point, const StateEstimate& estimate, double dt, bool integrate);
   void reset_integrals();
+  Vector3 position_error(const TrajectoryPoint& point, const StateEstimate& estimate) const;
+  Vector3 rate(const TrajectoryPoint& point, const StateEstimate& estimate) const;
+  Vector3 fed_forward(const TrajectoryPoint& point) const;
 
   Pid north_;
   Pid east_;

@@ -39,4 +39,14 @@ AngleHeadingRateThrust flat_inverse(const Vector3& u_N, double heading, double t
   return setpoint;
 }
 
+Vector3 specific_force(const AngleHeadingRateThrust& setpoint, double heading, double mass) {
+  const double cos_roll = std::cos(setpoint.roll);
+  const double z1 = cos_roll * std::sin(setpoint.pitch);
+  const double z2 = -std::sin(setpoint.roll);
+  const double z3 = cos_roll * std::cos(setpoint.pitch);
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  return -setpoint.thrust / mass * Vector3(c * z1 - s * z2, s * z1 + c * z2, z3);
+}
+
 }  // namespace ironbird::autopilot

@@ -34,4 +34,7 @@ Vector3 limit_specific_force(const Vector3& u_N, const ForceLimits& limits);
 /// @param mass     kg
 AngleHeadingRateThrust flat_inverse(const Vector3& u_N, double heading, double turning, double mass);
 
+/// The specific force in N that such a setpoint makes, m/s^2: the inverse of flat_inverse.
+Vector3 specific_force(const AngleHeadingRateThrust& setpoint, double heading, double mass);
+
 }  // namespace ironbird::autopilot

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "autopilot/types/linear_algebra.hpp"
 #include "autopilot/types/time.hpp"
@@ -19,7 +20,11 @@ struct TrajectoryPoint {
   double heading_acceleration = 0.0;
   std::uint32_t leg = 0;
   std::uint32_t reached = 0;
+  bool at_waypoint = false;
   bool holding = false;
+  std::optional<double> hold_left;
+  bool paused = false;
+  std::optional<double> pause_left;
   bool finished = false;
   bool landing = false;
 
@@ -35,7 +40,12 @@ struct TrajectoryPoint {
     visit("heading_acceleration", self.heading_acceleration, "rad/s^2", "its second rate");
     visit("leg", self.leg, "1", "index of the waypoint that the leg ends at");
     visit("reached", self.reached, "1", "waypoints reached since the route began");
-    visit("holding", self.holding, "1", "waiting at a hold waypoint");
+    visit("at_waypoint", self.at_waypoint, "1", "that waypoint is among those reached");
+    visit("holding", self.holding, "1", "waiting, at a hold waypoint or on the spot");
+    visit("hold_left", self.hold_left, "s",
+          "what is left of the hold at this waypoint; none: until released");
+    visit("paused", self.paused, "1", "a hold on the spot was asked for and is not over");
+    visit("pause_left", self.pause_left, "s", "what is left of that hold; none: until released");
     visit("finished", self.finished, "1", "the last waypoint has been reached");
     visit("landing", self.landing, "1", "descend here and disarm on the ground");
   }

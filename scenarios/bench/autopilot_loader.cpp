@@ -47,6 +47,9 @@ class AutopilotReader {
         read_parameters(*table, "autopilot." + access.name, access.name, parameters, settings,
                         {"kind", "period"});
       }
+      if (const std::string conflict = parameters.set_all(settings.values); !conflict.empty()) {
+        report("autopilot." + conflict + (kind == access.slot->kind ? "" : " (in " + kind_path + ")"));
+      }
       loaded_.modules.push_back(std::move(settings));
     }
   }

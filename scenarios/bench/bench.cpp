@@ -74,18 +74,15 @@ Bench::~Bench() = default;
 
 void Bench::wire_autopilot(const autopilot::Modules& modules) {
   autopilot_ = std::make_unique<autopilot::Autopilot>(loaded_.autopilot, modules);
-  autopilot::for_each_slot(
-      [&](const auto& slot) { set_parameters(slot.name, (loaded_.autopilot.*slot.config).kind); });
+  autopilot::for_each_slot([&](const auto& slot) {
+    const ModuleSettings* settings =
+        loaded_.settings_of(std::string(slot.name), (loaded_.autopilot.*slot.config).kind);
+    if (settings != nullptr) autopilot_->parameters().set_all(settings->values);
+  });
   if (!scenario_.waypoints.empty()) {
     ask(autopilot::RouteRequest(autopilot::SetRoute{scenario_.waypoints, scenario_.cyclic}), "route",
         Time{0});
   }
-}
-
-void Bench::set_parameters(const std::string& slot, const std::string& kind) {
-  const ModuleSettings* settings = loaded_.settings_of(slot, kind);
-  if (settings == nullptr) return;
-  for (const auto& [path, value] : settings->values) autopilot_->parameters().set(path, value);
 }
 
 void Bench::wire_record() {

@@ -83,8 +83,6 @@ class Bench {
   void swap_module(const EventConfig& event, Time now);
   /// @return whether the autopilot accepted it
   bool ask(const autopilot::Request& request, const std::string& what, Time now);
-  /// Gives the module that flies in `slot` the scenario's parameters for its kind.
-  void set_parameters(const std::string& slot, const std::string& kind);
   void watch(Time now);
   void publish_events(Time now);
   void record_route(Time now);

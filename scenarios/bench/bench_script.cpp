@@ -31,6 +31,8 @@ autopilot::Request request_of(OperatorWish wish, const EventConfig& event) {
       return autopilot::RouteRequest(autopilot::ReturnToLaunch{});
     case OperatorWish::kClearRoute:
       return autopilot::RouteRequest(autopilot::ClearRoute{});
+    case OperatorWish::kListRoute:
+      return autopilot::ListRoute{};
     case OperatorWish::kFollowerFlies:
       return autopilot::OverrideSetpoint{std::nullopt};
   }
@@ -92,8 +94,8 @@ void Bench::perform(const EventConfig& event, Time now) {
     return;
   }
   if (event.add_waypoint) {
-    const std::optional<std::uint32_t> at =
-        event.index ? std::optional<std::uint32_t>(static_cast<std::uint32_t>(*event.index)) : std::nullopt;
+    std::optional<std::uint32_t> at;
+    if (event.index) at = static_cast<std::uint32_t>(*event.index);
     ask(autopilot::RouteRequest(autopilot::AddWaypoint{*event.add_waypoint, at}), describe_event(event), now);
     return;
   }
@@ -142,12 +144,15 @@ void Bench::perform(OperatorWish wish, const EventConfig& event, Time now) {
 }
 
 void Bench::swap_module(const EventConfig& event, Time now) {
-  if (!ask(autopilot::SwapModule{event.swap, event.kind}, describe_event(event), now)) return;
+  autopilot::SwapModule wish{event.swap, event.kind};
+  if (const ModuleSettings* settings = loaded_.settings_of(event.swap, event.kind)) {
+    wish.settings = settings->values;
+  }
+  if (!ask(wish, describe_event(event), now)) return;
   autopilot::for_each_slot([&](const auto& slot) {
     if (probes_ && event.swap == slot.name)
       probes_->watch(event.swap, event.kind, (*autopilot_.*slot.module)());
   });
-  set_parameters(event.swap, event.kind);
 }
 
 bool Bench::ask(const autopilot::Request& request, const std::string& what, Time now) {
@@ -159,6 +164,7 @@ bool Bench::ask(const autopilot::Request& request, const std::string& what, Time
   }
   judge_->event(now, outcome.accepted ? "request" : "refused",
                 outcome.accepted ? what : what + ": " + outcome.reason);
+  for (const std::string& line : outcome.answer) judge_->event(now, "answer", line);
   return outcome.accepted;
 }
 

@@ -94,10 +94,11 @@ enum class OperatorWish : std::uint8_t {
   kRelease,
   kReturnToLaunch,
   kClearRoute,
+  kListRoute,
   kFollowerFlies
 };
 
-constexpr std::array<std::pair<OperatorWish, std::string_view>, 8> enumerators(OperatorWish) {
+constexpr std::array<std::pair<OperatorWish, std::string_view>, 9> enumerators(OperatorWish) {
   return {{{OperatorWish::kTakeOff, "take_off"},
            {OperatorWish::kLand, "land"},
            {OperatorWish::kResume, "resume"},
@@ -105,6 +106,7 @@ constexpr std::array<std::pair<OperatorWish, std::string_view>, 8> enumerators(O
            {OperatorWish::kRelease, "release"},
            {OperatorWish::kReturnToLaunch, "return_to_launch"},
            {OperatorWish::kClearRoute, "clear_route"},
+           {OperatorWish::kListRoute, "list_route"},
            {OperatorWish::kFollowerFlies, "follower_flies"}}};
 }
 

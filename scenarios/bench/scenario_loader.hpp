@@ -26,7 +26,7 @@ struct Overrides {
 struct ModuleSettings {
   std::string slot;
   std::string kind;
-  std::vector<std::pair<std::string, autopilot::ParameterValue>> values;  ///< path in the parameter table
+  std::vector<autopilot::ParameterSetting> values;  ///< path in the parameter table
 };
 
 /// A scenario with everything that it refers to, read and checked.

@@ -82,6 +82,66 @@ TEST_F(CascadeTest, Entry0TurnsAPositionIntoVelocityAccelerationAndAngles) {
               angles_of(a_V, 0.9 * 0.3 - 0.1 * 0.04));
 }
 
+struct LimitedCase {
+  const char* name;
+  ControlSetpoint asked;
+  ControlSetpoint allowed;
+};
+
+class CascadeLimitsTest : public CascadeTest, public ::testing::WithParamInterface<LimitedCase> {};
+
+TEST_P(CascadeLimitsTest, LimitAtEveryEntryWhatMayBeAskedFor) {
+  CascadeParams p = plain();
+  p.max_horizontal_acceleration = 1e3;  // so that only one kind of limit is at work
+  p.max_horizontal_speed = 5.0;
+  if (std::holds_alternative<AccelerationHeadingRate>(GetParam().asked)) p.max_horizontal_acceleration = 5.0;
+  cascade_.set_params(p);
+  const auto given = fly<AngleCommand>(GetParam().asked);
+  cascade_.reset();
+  expect_same(given, fly<AngleCommand>(GetParam().allowed));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, CascadeLimitsTest,
+    ::testing::Values(LimitedCase{"Entry0OnADiagonal", PositionHeading{Vector3(1e3, 1e3, -10), 0.0},
+                                  VelocityHeadingRate{Vector3(5 * std::sqrt(0.5), 5 * std::sqrt(0.5), 0),
+                                                      -0.1 * 0.04}},
+                      LimitedCase{"Entry1", VelocityHeightHeadingRate{Vector2(60, 0), -10, 0.0},
+                                  VelocityHeadingRate{Vector3(5, 0, 0), 0.0}},
+                      LimitedCase{"Entry2", AccelerationHeadingRate{Vector3(30, 40, 0), 0.0},
+                                  AccelerationHeadingRate{Vector3(3, 4, 0), 0.0}},
+                      LimitedCase{"Entry2Upwards", AccelerationHeadingRate{Vector3(0, 0, -50), 0.0},
+                                  AccelerationHeadingRate{Vector3(0, 0, -8), 0.0}},
+                      LimitedCase{"Entry3", VelocityHeadingRate{Vector3(-36, 48, 0), 0.0},
+                                  VelocityHeadingRate{Vector3(-3, 4, 0), 0.0}},
+                      LimitedCase{"Entry3Downwards", VelocityHeadingRate{Vector3(0, 0, 30), 0.0},
+                                  VelocityHeadingRate{Vector3(0, 0, 2), 0.0}},
+                      LimitedCase{"Entry4Upwards", PositionClimbHeading{Vector2(1, 2), -30.0, 0.0},
+                                  PositionClimbHeading{Vector2(1, 2), -3.0, 0.0}}),
+    [](const auto& case_) { return case_.param.name; });
+
+TEST_F(CascadeTest, GoesOnFromTheCommandOfAnother) {
+  // GIVEN a cascade whose integrals hold a wind and a crooked rotor
+  CascadeParams p = plain();
+  p.vel_n_to_accel.ki = p.vel_d_to_accel.ki = 0.5;
+  p.roll_to_torque.ki = 0.4;
+  cascade_.set_params(p);
+  step_.thrust_in_newtons = true;
+  const ControlSetpoint hover = VelocityHeadingRate{Vector3(0.4, -0.2, -0.1), 0.0};
+  turn(0.0, 0.0, 0.0);
+  for (int i = 0; i < 2000; ++i) cascade_.fly(hover, estimate_, step_);
+  const auto before = fly<PassThroughCommand>(hover);
+  // WHEN another one takes over THEN it asks for the same thrust and torque, not for those of an empty memory
+  Cascade other(p);
+  const auto empty = std::get<PassThroughCommand>(other.fly(hover, estimate_, step_));
+  ASSERT_GT(std::abs(empty.thrust - before.thrust), 0.3);
+  Cascade successor(p);
+  successor.resume(before, estimate_);
+  const auto after = std::get<PassThroughCommand>(successor.fly(hover, estimate_, step_));
+  EXPECT_NEAR(after.thrust, before.thrust, 1e-2);
+  EXPECT_NEAR(after.M_B.x(), before.M_B.x(), 1e-2);
+}
+
 TEST_F(CascadeTest, Entry1HoldsTheHeightAndPassesTheHorizontalVelocity) {
   const Vector3 a_V(1.1 * (0.7 - 0.1), 1.2 * (0.3 + 0.2), 1.3 * (0.7 * -0.5 - 0.05));
   expect_same(fly<AngleCommand>(VelocityHeightHeadingRate{Vector2(0.7, 0.3), -10.5, 0.2}),
@@ -187,6 +247,9 @@ TEST_F(CascadeTest, LimitsEveryCommandInRadiansAndNewtons) {
 }
 
 TEST_F(CascadeTest, StaysBoundedWhenUpsideDownAndInFreeFall) {
+  CascadeParams params = plain();
+  params.max_descent_acceleration = 9.0;
+  cascade_.set_params(params);
   step_.thrust_in_newtons = true;
   turn(3.1, 1.5, 0.0);
   const PassThroughCommand command =

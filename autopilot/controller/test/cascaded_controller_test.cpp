@@ -320,6 +320,35 @@ TEST_F(CascadedControllerTest, HoldsWhereThePilotLeftTheVehicle) {
   EXPECT_LT(command.M_B.norm(), 1e-9);
 }
 
+TEST_F(CascadedControllerTest, ClimbsOnWhereThePilotLeftTheVehicle) {
+  ask(FlightWish::kTakeOff);
+  run();
+  // GIVEN a pilot who takes the vehicle 30 m aside in the middle of the climb
+  estimate_.p_NB_N.z() = -1.0;
+  status_.rc_override = 1;
+  run();
+  estimate_.p_NB_N << 33.0, 4.0, -1.0;
+  run_for(0.1);
+  // WHEN the pilot hands over THEN it climbs level, there
+  status_.rc_override = 0;
+  const auto climb = std::get<PassThroughCommand>(run());
+  ASSERT_EQ(controller_.phase(), kTakeOff);
+  EXPECT_LT(climb.M_B.norm(), 1e-6);
+}
+
+TEST_F(CascadedControllerTest, DoesNotTakeASlowDescentForTheGround) {
+  // GIVEN a slow descent of a vehicle that weighs less than thought, so that little lift is asked for
+  set([](CascadedControllerParams& p) { p.landing_speed = 0.2; });
+  fly_offboard();
+  ask(FlightWish::kLand);
+  run();
+  // WHEN it sinks at more than half of what it was told, though slower than `touch_down_speed`
+  estimate_.v_NB_B.z() = 0.12;
+  run_for(10.0);
+  // THEN the motors go on
+  EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, 0.0);
+}
+
 TEST_F(CascadedControllerTest, SaysNothingOnAnEstimateThatIsLostAndLandsWhenItIsSoonBack) {
   fly_offboard();
   estimate_.health = Health::kLost;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
 #include "autopilot/module/module.hpp"
 #include "autopilot/module/registry.hpp"
@@ -33,6 +34,21 @@ struct ExampleParams {
   }
 };
 
+struct RangeParams {
+  double least = 0.0;
+  double most = 1.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("least", self.least, "1", "lower end", 0.0, 10.0);
+    visit("most", self.most, "1", "upper end", 0.0, 10.0);
+  }
+
+  static std::string_view conflict(const RangeParams& p) {
+    return p.least < p.most ? "" : "least must be less than most";
+  }
+};
+
 class ExampleModule : public Module {
  public:
   void reset() override {}
@@ -45,6 +61,8 @@ class Example final : public Tunable<ExampleModule, ExampleParams> {
  protected:
   void on_parameters() override { ++rebuilt; }
 };
+
+class Range final : public Tunable<ExampleModule, RangeParams> {};
 
 class ParameterTableTest : public ::testing::Test {
  protected:
@@ -63,6 +81,25 @@ TEST_F(ParameterTableTest, SetsNestedParametersAndTellsTheModule) {
   EXPECT_EQ(table_.set("slot.count", 5), SetOutcome::kAccepted);
   EXPECT_EQ(table_.set("slot.enabled", true), SetOutcome::kAccepted);
   EXPECT_EQ(example_.rebuilt, 4);
+}
+
+TEST(ParameterConflictTest, IsRefusedWhenOneValueIsSetAndLeavesItAsItWas) {
+  Range range;
+  ParameterTable table;
+  range.register_parameters(table, "slot");
+  std::string conflict;
+  EXPECT_EQ(table.set("slot.least", 2.0, &conflict), SetOutcome::kConflict);
+  EXPECT_EQ(conflict, "least must be less than most");
+  EXPECT_EQ(range.params().least, 0.0);
+}
+
+TEST(ParameterConflictTest, IsJudgedAtTheEndWhenManyAreSet) {
+  Range range;
+  ParameterTable table;
+  range.register_parameters(table, "slot");
+  EXPECT_EQ(table.set_all({{"slot.least", 2.0}, {"slot.most", 3.0}, {"slot.other", 1.0}}), "");
+  EXPECT_EQ(table.get("slot.least"), ParameterValue(2.0));
+  EXPECT_EQ(table.set_all({{"slot.least", 5.0}, {"slot.most", 4.0}}), "slot.least must be less than most");
 }
 
 struct RefusedSet {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "autopilot/path_manager/minimum_snap_manager.hpp"
 #include "autopilot/path_manager/test/perfect_flight.hpp"
@@ -9,6 +11,7 @@ namespace ironbird::autopilot {
 namespace {
 
 constexpr double kRoundOff = 1e-9;
+constexpr double kAnywhere = 1e3;  // m, an excursion that nothing reaches
 
 MinimumSnapTrajectory example(const MotionLimits& limits) {
   MinimumSnapTrajectory trajectory;
@@ -17,7 +20,7 @@ MinimumSnapTrajectory example(const MotionLimits& limits) {
   trajectory.add(Vector3(-20, 20, -5), -2.5, 10.0);
   trajectory.add(Vector3(-18, 21, -5), -2.5, 0.8);
   trajectory.add(Vector3(0, 0, -5), 0.0, 10.0);
-  trajectory.solve(limits);
+  trajectory.solve(limits, kAnywhere);
   return trajectory;
 }
 
@@ -26,7 +29,7 @@ TEST(MinimumSnapTrajectoryTest, IsThePolynomialOfTheTextbookForASingleSegment) {
   MinimumSnapTrajectory trajectory;
   trajectory.begin(Vector3::Zero(), 0.0);
   trajectory.add(Vector3(10, 0, 0), 0.0, 3.0);
-  trajectory.solve(MotionLimits{});
+  trajectory.solve(MotionLimits{}, kAnywhere);
   for (double tau = 0.0; tau < 1.0; tau += 0.01) {
     const double t4 = std::pow(tau, 4);
     const double expected = t4 * (35.0 + tau * (-84.0 + tau * (70.0 - 20.0 * tau)));
@@ -56,7 +59,7 @@ Vector3 one_sided(const MinimumSnapTrajectory& trajectory, double t, int n, doub
 TEST(MinimumSnapTrajectoryTest, IsContinuousUpToTheSixthDerivativeAtItsPlaces) {
   const MinimumSnapTrajectory trajectory = example(MotionLimits{});
   const double h = 0.01;  // s
-  for (std::size_t i = 0; i + 1 < trajectory.segments(); ++i) {
+  for (std::size_t i = 0; i + 1 < trajectory.legs(); ++i) {
     const double t = trajectory.end_of(i);
     for (int n = 0; n <= 4; ++n) {
       // One-sided differences are off by about n h/2 times the next derivative, and by rounding over h^n.
@@ -103,7 +106,7 @@ TEST(MinimumSnapTrajectoryTest, CostsLessSnapThanStoppingAtEachPlace) {
   through.begin(Vector3::Zero(), 0.0);
   through.add(Vector3(10, 0, 0), 0.0, 3.0);
   through.add(Vector3(20, 0, 0), 0.0, 3.0);
-  through.solve(MotionLimits{});
+  through.solve(MotionLimits{}, kAnywhere);
   // THEN its cost is that of the optimum: rest-to-rest through the middle of a symmetric way is the single
   // polynomial 35 t^4 - ..., whose snap cost is 100800 d^2/T^7.
   const double optimum = 100800.0 * 400.0 / std::pow(through.duration(), 7);
@@ -146,15 +149,15 @@ INSTANTIATE_TEST_SUITE_P(Cases, MinimumSnapLimitsTest,
                                            LimitCase{"SoftTurns", {50.0, 50.0, 50.0, 0.01}}),
                          [](const auto& case_) { return case_.param.name; });
 
-TEST(MinimumSnapTrajectoryTest, SolvesAsManySegmentsAsItHolds) {
+TEST(MinimumSnapTrajectoryTest, SolvesAsManyLegsAsItHolds) {
   MinimumSnapTrajectory trajectory;
   trajectory.begin(Vector3::Zero(), 0.0);
-  for (std::size_t i = 1; i <= MinimumSnapTrajectory::kMostSegments; ++i) {
+  for (std::size_t i = 1; i <= MinimumSnapTrajectory::kMostLegs; ++i) {
     const double angle = 0.7 * static_cast<double>(i);
-    const double radius = i % 5 == 0 ? 0.5 : 20.0;  // very unequal segments
+    const double radius = i % 5 == 0 ? 0.5 : 20.0;  // very unequal legs
     trajectory.add(Vector3(radius * std::cos(angle), radius * std::sin(angle), -5.0), angle, 3.0);
   }
-  trajectory.solve(MotionLimits{});
+  trajectory.solve(MotionLimits{}, kAnywhere);
   MotionPoint before = trajectory.evaluate(0.0);
   for (double t = 0.0; t < trajectory.duration(); t += 0.01) {
     const MotionPoint now = trajectory.evaluate(t);
@@ -162,6 +165,65 @@ TEST(MinimumSnapTrajectoryTest, SolvesAsManySegmentsAsItHolds) {
     ASSERT_LE((now.p_N - before.p_N).norm(), 3.0 * 0.01 + kRoundOff);
     before = now;
   }
+}
+
+struct ExcursionCase {
+  const char* name;
+  std::vector<Vector3> places_N;
+  double most;     // m
+  double longest;  // s, of the whole
+};
+
+class MinimumSnapExcursionTest : public ::testing::TestWithParam<ExcursionCase> {};
+
+/// Distance of `p_N` from the straight way between two places, m.
+double distance_from(const Vector3& p_N, const Vector3& from_N, const Vector3& to_N) {
+  const Vector3 way_N = to_N - from_N;
+  const double share = std::clamp((p_N - from_N).dot(way_N) / way_N.squaredNorm(), 0.0, 1.0);
+  return (p_N - from_N - share * way_N).norm();
+}
+
+TEST_P(MinimumSnapExcursionTest, StaysWithinBoundsOverLegsOfUnequalLength) {
+  const std::vector<Vector3>& places_N = GetParam().places_N;
+  double total = 0.0;
+  for (std::size_t first = 0; first + 1 < places_N.size();) {
+    MinimumSnapTrajectory trajectory;
+    trajectory.begin(places_N[first], 0.0);
+    for (std::size_t i = first + 1; i < places_N.size(); ++i) trajectory.add(places_N[i], 0.0, 10.0);
+    const std::size_t legs = trajectory.solve(MotionLimits{}, GetParam().most);
+    ASSERT_GE(legs, 1u);
+    ASSERT_EQ(legs, trajectory.legs());
+    for (double t = 0.0; t < trajectory.duration(); t += 0.01) {
+      const MotionPoint point = trajectory.evaluate(t);
+      const std::size_t leg = first + point.passed;
+      ASSERT_LE(distance_from(point.p_N, places_N[leg], places_N[leg + 1]), 1.01 * GetParam().most)
+          << "between samples the path bends little";
+    }
+    total += trajectory.duration();
+    first += legs;
+  }
+  EXPECT_LT(total, GetParam().longest);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, MinimumSnapExcursionTest,
+    ::testing::Values(
+        ExcursionCase{"ThePapersMission", {{0, 0, -2}, {0, 0, -5}, {-20, 0, -8}, {-20, 20, -5}}, 1.0, 30.0},
+        ExcursionCase{"LowOverTheGround", {{0, 0, -1}, {2, 0, -1}, {60, 0, -1.5}, {62, 0, -20}}, 0.9, 60.0},
+        ExcursionCase{"FarAway", {{0, 0, -2}, {1, 0, -2}, {100, 0, -2}, {100, 10, -12}}, 1.0, 90.0},
+        ExcursionCase{
+            "NearlyTheSamePlace", {{0, 0, -5}, {20, 0, -5}, {20.002, 0, -5}, {20, 20, -5}}, 1.0, 30.0},
+        ExcursionCase{"NarrowTube", {{0, 0, -5}, {20, 0, -5}, {0, 1, -5}, {20, 2, -5}}, 0.05, 60.0}),
+    [](const auto& case_) { return case_.param.name; });
+
+TEST(MinimumSnapTrajectoryTest, FliesASquareThroughItsCornersInsteadOfStoppingThere) {
+  MinimumSnapTrajectory trajectory;
+  trajectory.begin(Vector3(0, 0, -5), 0.0);
+  trajectory.add(Vector3(10, 0, -5), 0.0, 3.0);
+  trajectory.add(Vector3(10, 10, -5), 0.0, 3.0);
+  trajectory.add(Vector3(0, 10, -5), 0.0, 3.0);
+  EXPECT_EQ(trajectory.solve(MotionLimits{}, 1.0), 3u);
+  EXPECT_GT(trajectory.evaluate(trajectory.end_of(0)).v_N.norm(), 0.5);
 }
 
 class MinimumSnapManagerTest : public ::testing::Test {
@@ -183,6 +245,30 @@ TEST_F(MinimumSnapManagerTest, FliesThroughWaypointsWithoutStoppingAndCountsThem
   EXPECT_EQ(seen, 3u);
   EXPECT_GT(slowest, 0.3);
   EXPECT_LT((flight_.last.p_N - Vector3(0, 10, 0)).norm(), kRoundOff);
+}
+
+TEST_F(MinimumSnapManagerTest, FliesThePapersMissionAboveTheGroundAndNearItsLegs) {
+  flight_.estimate.p_NB_N << 0.0, 0.0, -2.0;
+  flight_.set(
+      {waypoint(1, Vector3(0, 0, -5)), waypoint(2, Vector3(-20, 0, -8)), waypoint(3, Vector3(-20, 20, -5))});
+  double lowest = 10.0;
+  double highest = 0.0;
+  ASSERT_TRUE(flight_.until(40.0, [&](const TrajectoryPoint& p) {
+    lowest = std::min(lowest, -p.p_N.z());
+    highest = std::max(highest, -p.p_N.z());
+    return p.finished;
+  }));
+  EXPECT_GT(lowest, 1.0) << "m, where the start is at 2";
+  EXPECT_LT(highest, 9.0) << "m, where the highest waypoint is at 8";
+}
+
+TEST_F(MinimumSnapManagerTest, StopsWhereFlyingThroughWouldStrayTooFar) {
+  flight_.set(
+      {waypoint(1, Vector3(1, 0, 0)), waypoint(2, Vector3(100, 0, 0)), waypoint(3, Vector3(100, 10, -10))});
+  ASSERT_TRUE(flight_.until(60.0, [](const auto& p) { return p.leg == 1; }));
+  EXPECT_LT(flight_.last.v_N.norm(), kRoundOff);
+  ASSERT_TRUE(flight_.until(150.0, [](const auto& p) { return p.finished; }));
+  EXPECT_EQ(flight_.last.reached, 3u);
 }
 
 TEST_F(MinimumSnapManagerTest, StopsAtHoldsLandingsAndRepeatedPlaces) {

@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "autopilot/test/autopilot_flight.hpp"
+
+namespace ironbird::autopilot {
+namespace {
+
+struct Swap {
+  const char* name;
+  const char* slot;
+  const char* kind;
+};
+
+/// Every slot, exchanged in every situation that a successor could forget.
+class SwapTest : public AutopilotFlight, public ::testing::WithParamInterface<Swap> {
+ protected:
+  void swap() { ask(SwapModule{GetParam().slot, GetParam().kind, {}}); }
+};
+
+TEST_P(SwapTest, LeavesAHoldAtAWaypointItsLength) {
+  Waypoint hold = place(0, 2, -4, WaypointKind::kHold);
+  hold.hold_time = 6.0;
+  ask(RouteRequest{SetRoute{{hold, place(0, 9, -4)}, false}});
+  take_off();
+  ASSERT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.holding; }));
+  fly(4.0);
+  swap();
+  double left = 0.0;
+  ASSERT_TRUE(until(20.0, [&](const Signals& s) {
+    left += 0.0025;
+    return s.trajectory.leg == 1;
+  }));
+  EXPECT_NEAR(left, 2.0, 0.05);
+  EXPECT_EQ(autopilot_.signals().trajectory.reached, 1u);
+}
+
+TEST_P(SwapTest, LeavesAHoldOnTheSpotInForceUntilReleased) {
+  ask(RouteRequest{SetRoute{{place(40, 0, -4)}, false}});
+  take_off();
+  ASSERT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.v_N.norm() > 1.0; }));
+  ask(RouteRequest{HoldHere{}});
+  fly(5.0);
+  const Vector3 place_N = vehicle_.p_NB_N;
+  swap();
+  fly(20.0);
+  EXPECT_TRUE(autopilot_.signals().trajectory.holding);
+  EXPECT_LT((vehicle_.p_NB_N - place_N).norm(), 0.05);
+  ask(RouteRequest{Release{}});
+  EXPECT_TRUE(until(40.0, [](const Signals& s) { return s.trajectory.finished; }));
+}
+
+TEST_P(SwapTest, LandsWhereTheLandingBegan) {
+  ask(RouteRequest{SetRoute{{place(3, 0, -6)}, false}});
+  take_off();
+  ASSERT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.finished; }));
+  ask(Land{});
+  ASSERT_TRUE(until(20.0, [&](const Signals&) { return vehicle_.p_NB_N.z() > -4.0; }));
+  swap();
+  double highest = -vehicle_.p_NB_N.z();
+  ASSERT_TRUE(until(30.0, [&](const Signals& s) {
+    highest = std::max(highest, -vehicle_.p_NB_N.z());
+    const auto* command = std::get_if<PassThroughCommand>(&s.command);
+    return command != nullptr && command->thrust == 0.0;
+  }));
+  EXPECT_LT(highest, 4.05);
+  EXPECT_GT(vehicle_.p_NB_N.z(), -0.05);
+  EXPECT_LT((vehicle_.p_NB_N - Vector3(3, 0, 0)).norm(), 0.1);
+}
+
+TEST_P(SwapTest, DoesNotSagByALostIntegral) {
+  // GIVEN a follower that thinks the vehicle lighter than it is, and whose integral has made up for it
+  ask(SetParameter{"trajectory_follower.mass", 3.3});
+  ask(SetParameter{"trajectory_follower.down.ki", 3.0});
+  ask(RouteRequest{SetRoute{{place(0, 0, -5)}, false}});
+  take_off();
+  fly(40.0);
+  const double down = vehicle_.p_NB_N.z();
+  swap();
+  double worst = 0.0;
+  until(5.0, [&](const Signals&) {
+    worst = std::max(worst, std::abs(vehicle_.p_NB_N.z() - down));
+    return false;
+  });
+  EXPECT_LT(worst, 0.02) << "m; without its integral 0.12";
+}
+
+TEST_P(SwapTest, HoldsTheHeightOfTheHoldAfterTakeOff) {
+  // GIVEN a controller that thinks the vehicle lighter than it is
+  ask(SetParameter{"controller.mass", 3.5});
+  ask(SetParameter{"controller.take_off_hold_time", 30.0});
+  ask(RouteRequest{SetRoute{{place(0, 0, -2)}, false}});
+  take_off();
+  fly(20.0);
+  const double down = vehicle_.p_NB_N.z();
+  swap();
+  double worst = 0.0;
+  until(5.0, [&](const Signals& s) {
+    EXPECT_EQ(s.flight.phase, FlightPhase::kHold);
+    worst = std::max(worst, std::abs(vehicle_.p_NB_N.z() - down));
+    return false;
+  });
+  EXPECT_LT(worst, 0.02);
+}
+
+TEST_P(SwapTest, KeepsWhatTheOperatorHasSet) {
+  step();
+  ask(SetParameter{"controller.mass", 3.0});
+  ask(SetParameter{"path_manager.max_acceleration", 0.5});
+  ask(SetParameter{"trajectory_follower.north.kp", 3.0});
+  ask(SetParameter{"path_planner.return_height", 7.0});
+  swap();
+  EXPECT_EQ(autopilot_.parameters().get("controller.mass"), ParameterValue(3.0));
+  EXPECT_EQ(autopilot_.parameters().get("path_manager.max_acceleration"), ParameterValue(0.5));
+  EXPECT_EQ(autopilot_.parameters().get("trajectory_follower.north.kp"), ParameterValue(3.0));
+  EXPECT_EQ(autopilot_.parameters().get("path_planner.return_height"), ParameterValue(7.0));
+}
+
+TEST_P(SwapTest, BrakesNoHarderThanTheOperatorHasAllowed) {
+  ask(SetParameter{"path_manager.max_acceleration", 0.5});
+  ask(RouteRequest{SetRoute{{place(60, 0, -3)}, false}});
+  take_off();
+  ASSERT_TRUE(until(40.0, [](const Signals& s) { return s.trajectory.v_N.norm() > 2.0; }));
+  swap();
+  double hardest = 0.0;
+  until(5.0, [&](const Signals& s) {
+    hardest = std::max(hardest, s.trajectory.a_N.norm());
+    return false;
+  });
+  EXPECT_LT(hardest, 0.51);
+}
+
+INSTANTIATE_TEST_SUITE_P(Slots, SwapTest,
+                         ::testing::Values(Swap{"Estimator", "estimator", "external_pose"},
+                                           Swap{"Planner", "path_planner", "waypoint_planner"},
+                                           Swap{"SameManager", "path_manager", "smoothstep_manager"},
+                                           Swap{"OtherManager", "path_manager", "minimum_snap_manager"},
+                                           Swap{"Follower", "trajectory_follower", "flat_pid_follower"},
+                                           Swap{"Controller", "controller", "cascaded_controller"}),
+                         [](const auto& case_) { return case_.param.name; });
+
+using SwapSettingsTest = AutopilotFlight;
+
+TEST_F(SwapSettingsTest, GiveTheNewcomerItsOwnParametersBeforeItTakesOver) {
+  ask(SwapModule{"path_manager", "minimum_snap_manager", {{"path_manager.max_excursion", 3.0}}});
+  EXPECT_EQ(autopilot_.parameters().get("path_manager.max_excursion"), ParameterValue(3.0));
+}
+
+TEST_F(SwapSettingsTest, AreRefusedWithTheSwapWhenTheyDoNotFitTogether) {
+  const RequestOutcome outcome =
+      autopilot_.request(SwapModule{"controller", "cascaded_controller", {{"controller.min_thrust", 90.0}}});
+  EXPECT_FALSE(outcome.accepted);
+  EXPECT_NE(outcome.reason.find("min_thrust must be less than max_thrust"), std::string::npos)
+      << outcome.reason;
+  EXPECT_EQ(autopilot_.parameters().get("controller.min_thrust"), ParameterValue(2.0));
+}
+
+}  // namespace
+}  // namespace ironbird::autopilot
