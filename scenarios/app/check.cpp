@@ -61,13 +61,11 @@ Verb check_verb() {
             auto files = std::make_shared<std::vector<std::string>>();
             app.add_option("scenarios", *files, "scenario files")->required();
             app.footer(
-                "Tells every finding of every file in a line of its own, `file:line:column: path = value: "
-                "what is "
-                "wrong,\nwhat is allowed`, and ends with 2 when there is any.\n"
+                "Tells every finding of every file in a line of its own, `file:line:column: path = value:\n"
+                "what is wrong, what is allowed`, and ends with 2 when there is any.\n"
                 "Examples:\n"
-                "  ironbird check mission.toml\n"
-                "  ironbird check scenarios/library/*/*.toml\n"
-                "  ironbird check mission.toml && ironbird run mission.toml");
+                "  ironbird check scenarios/library/paper/three_waypoints.toml\n"
+                "  ironbird check scenarios/library/*/*.toml");
             return [files](const autopilot::Modules& modules) { return check(*files, modules); };
           }};
 }

@@ -298,7 +298,7 @@ TEST_F(AttitudeFilterTest, TakesTenfoldAccelerometerGainsForAnExternalAttitudeTo
   step({0, 0, -kG}, Vector3::Zero());
   const double error = 2.0 * std::sin(0.3);  // X and Y rows; positive: the estimate must turn on
   EXPECT_NEAR(filter.bias().z, -10.0 * 0.02 * error * kDt, 1e-7);
-  EXPECT_NEAR(filter.attitude().heading, (10.0 * 0.4 * error - static_cast<double>(filter.bias().z)) * kDt,
+  EXPECT_NEAR(filter.attitude().heading(), (10.0 * 0.4 * error - static_cast<double>(filter.bias().z)) * kDt,
               1e-6);
 }
 
@@ -313,9 +313,9 @@ TEST_F(AttitudeFilterTest, FollowsAnExternalRollAndPitch) {
     filter.set_external({q.w(), q.x(), q.y(), q.z()});
     step({0, 0, -kG}, Vector3::Zero());
   }
-  EXPECT_NEAR(filter.attitude().roll, 0.2, 1e-3);
-  EXPECT_NEAR(filter.attitude().pitch, -0.1, 1e-3);
-  EXPECT_NEAR(filter.attitude().heading, 0.0, 1e-3);
+  EXPECT_NEAR(filter.attitude().roll(), 0.2, 1e-3);
+  EXPECT_NEAR(filter.attitude().pitch(), -0.1, 1e-3);
+  EXPECT_NEAR(filter.attitude().heading(), 0.0, 1e-3);
 }
 
 TEST_F(AttitudeFilterTest, SurvivesAndCountsAnAccelerometerExactlyUpsideDown) {
@@ -350,8 +350,8 @@ TEST_F(AttitudeFilterTest, KnowsThePitchOfAVerticalNose) {
     const double rate = 2.0 + 0.01 * run;
     for (int k = 0; k < 400; ++k) {
       step({0, 0, -kG}, {0.0, rate, 0.0});
-      ASSERT_TRUE(std::isfinite(filter.attitude().pitch)) << "at " << rate << " rad/s, step " << k;
-      steepest = std::max(steepest, static_cast<double>(filter.attitude().pitch));
+      ASSERT_TRUE(std::isfinite(filter.attitude().pitch())) << "at " << rate << " rad/s, step " << k;
+      steepest = std::max(steepest, static_cast<double>(filter.attitude().pitch()));
     }
   }
   EXPECT_NEAR(steepest, std::numbers::pi / 2.0, 1e-3);  // the arc sine knows a float32 that well near one

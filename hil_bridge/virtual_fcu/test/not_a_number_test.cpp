@@ -118,9 +118,9 @@ TEST_F(NotANumberTest, KeepsAnExternalAttitudeThroughAStepOfNoLength) {
   const std::uint64_t now = fcu.board().clock_us;
   fcu.deliver(ExternalAttitude{.qw = std::cos(0.1F), .qx = 0, .qy = 0, .qz = std::sin(0.1F)});
   repeat(now);
-  EXPECT_EQ(fcu.firmware().filter().attitude().heading, 0.0F);
+  EXPECT_EQ(fcu.firmware().filter().attitude().heading(), 0.0F);
   repeat(now + 2500);
-  EXPECT_GT(fcu.firmware().filter().attitude().heading, 0.0F);
+  EXPECT_GT(fcu.firmware().filter().attitude().heading(), 0.0F);
   EXPECT_TRUE(all_finite(fcu.board().outputs));
 }
 
@@ -128,7 +128,7 @@ TEST_F(NotANumberTest, FliesOnThroughAVerticalNose) {
   fcu.deliver(ParamSet{bits_of(0), 1, 0, name_field("FILT_USE_ACC"), 6});
   for (int k = 0; k < 4000; ++k) {
     fcu.imu_pass({0, 0, -kGravity}, {0.0F, 3.0F + 1e-3F * static_cast<float>(k), 0.0F});
-    ASSERT_TRUE(std::isfinite(fcu.firmware().filter().attitude().pitch)) << k;
+    ASSERT_TRUE(std::isfinite(fcu.firmware().filter().attitude().pitch())) << k;
     for (std::size_t pin = 0; pin < 4; ++pin) ASSERT_GT(fcu.board().outputs[pin], 0.0F) << k;
   }
 }

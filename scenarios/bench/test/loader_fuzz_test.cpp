@@ -1,6 +1,7 @@
 // Scenarios of the library with random damage: each loads, or is refused in single lines that name a place.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -87,7 +88,10 @@ class Damage {
 
 class LoaderFuzzTest : public ::testing::Test {
  protected:
-  LoaderFuzzTest() : before_(fs::current_path()), folder_(fs::path(::testing::TempDir()) / "loader_fuzz") {
+  // Tests of one program run at the same time: each needs a folder of its own.
+  LoaderFuzzTest()
+      : before_(fs::current_path()),
+        folder_(fs::path(::testing::TempDir()) / ("loader_fuzz_" + std::to_string(getpid()))) {
     fs::current_path(IRONBIRD_SOURCE_DIR);
     fs::create_directories(folder_);
   }
