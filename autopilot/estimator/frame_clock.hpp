@@ -7,9 +7,9 @@ namespace ironbird::autopilot {
 /// Carries the stamps of the frames to a time that never goes back, whatever the sender's clock does.
 ///
 /// A stamp that is older than the newest, or further ahead than a gap of the IMU may be, is doubted: one wild
-/// stamp among good ones changes nothing. When the doubted stamps agree with each other the sender's clock has
-/// moved for good. Forward that is a gap. Back, nobody knows how long the sender was away: the time then goes on
-/// after an assumed pause, long enough that nothing from before counts as fresh.
+/// stamp among good ones changes nothing. When the doubted stamps agree with each other the sender's clock
+/// has moved for good. Forward that is a gap. Back, nobody knows how long the sender was away: the time then
+/// goes on after an assumed pause, long enough that nothing from before counts as fresh.
 class FrameClock {
  public:
   /// Whether a frame with this stamp is to be worked with.
@@ -42,7 +42,7 @@ class FrameClock {
   static constexpr Time kPatience = std::chrono::milliseconds(50);
   static constexpr Time kAssumedPause = std::chrono::seconds(1);
   static constexpr int kLeastAgreeing = 4;  // with the one before; stamps at random do not
-  static constexpr int kMostRefused = 20;  // 50 ms of a common IMU; the stamps cannot tell
+  static constexpr int kMostRefused = 20;   // 50 ms of a common IMU; the stamps cannot tell
 
   bool go_on(Time stamp) {
     started_ = true;
