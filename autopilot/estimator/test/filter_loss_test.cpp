@@ -79,6 +79,17 @@ TEST_P(FilterTest, KeepsTheVelocityOverGroundWhenItsHeadingIsReset) {
   EXPECT_LT(probed("nis_velocity"), GnssParams{}.velocity_gate);
 }
 
+TEST_P(FilterTest, DoesNotFollowAPredecessorWithoutAnOriginInFlight) {
+  Signals signals;
+  signals.flight.phase = FlightPhase::kHold;
+  signals.estimate.health = Health::kGood;  // poses from outside are good, and nowhere on the earth
+  EXPECT_FALSE(estimator->objection(signals).empty());
+  signals.estimate.origin.known = true;
+  EXPECT_TRUE(estimator->objection(signals).empty());
+  signals.estimate.health = Health::kUninitialised;
+  EXPECT_FALSE(estimator->objection(signals).empty());
+}
+
 TEST_P(FilterTest, KeepsTheBiasOfTheAccelerometerOverAnExchange) {
   sensors.errors.accelerometer_bias = {0.0, 0.0, 0.3};
   fly(60.0);
