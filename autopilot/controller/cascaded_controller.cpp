@@ -17,8 +17,7 @@ constexpr double kOffGround = 0.3;     // m above the launch: the climb has begu
 constexpr double kStoppedShare = 0.4;
 
 bool is_usable(const StateEstimate& estimate) {
-  const bool trusted = estimate.health == Health::kGood || estimate.health == Health::kDegraded;
-  return trusted && estimate.p_NB_N.allFinite() && estimate.v_NB_B.allFinite() &&
+  return is_usable(estimate.health) && estimate.p_NB_N.allFinite() && estimate.v_NB_B.allFinite() &&
          estimate.w_NB_B.allFinite() && estimate.q_NB.coeffs().allFinite() &&
          std::isfinite(estimate.roll + estimate.pitch + estimate.heading);
 }

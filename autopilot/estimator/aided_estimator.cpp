@@ -14,10 +14,22 @@ namespace ironbird::autopilot {
 namespace {
 
 constexpr double kLongestStep = 0.02;  // s, a longer gap between IMU samples is crossed in several steps
-constexpr double kLongestGap = 0.5;    // s, beyond this a held IMU sample says nothing
 constexpr double kImuSilence = 0.05;   // s
 constexpr double kSoonAgain = 15.0;    // s, between two resets of velocity or heading
 constexpr double kFreshFix = 1.0;      // s, a fix that may still replace a broken state
+
+/// A start in motion from what was last known, in full: the accelerometer's bias as well.
+StartState going_on_from(const StateEstimate& last, const LocalOrigin& origin) {
+  StartState found;
+  found.origin = origin;
+  found.p_NB_N = last.p_NB_N;
+  found.v_NB_N = last.v_NB_N();
+  found.q_NB = last.q_NB;
+  found.gyro_bias_B = last.gyro_bias_B;
+  found.accelerometer_offset_B = last.accelerometer_bias_B;
+  found.moving = true;
+  return found;
+}
 
 }  // namespace
 
@@ -76,15 +88,8 @@ void AidedEstimator::take_over(const Signals& signals) {
   const StateEstimate& last = signals.estimate;
   if (last.health == Health::kLost) alignment_.restart_in_motion();
   if (last.health == Health::kUninitialised || last.health == Health::kLost || !last.origin.known) return;
-  StartState found;
-  found.origin = last.origin;
-  found.p_NB_N = last.p_NB_N;
-  found.v_NB_N = last.v_NB_N();
-  found.q_NB = last.q_NB;
-  found.gyro_bias_B = last.gyro_bias_B;
-  found.moving = true;
   origin_pressure_.reset();
-  begin(found, last.stamp);
+  begin(going_on_from(last, last.origin), last.stamp);
   heard_.gnss = last.stamp - Time{std::llround(last.position_age * 1e9)};
   previous_ = last.stamp;
   last_good_ = last;
@@ -105,7 +110,7 @@ StateEstimate AidedEstimator::estimate(const SensorFrame& frame, double dt) {
     advance(frame.imu, step);
     fuse(frame);
     if (!is_finite()) recover(now);
-    if (step > kLongestGap) seek_attitude();
+    if (imu_was_away()) seek_attitude();
     realign_if_hopeless(frame, step);
   }
   StateEstimate out;
@@ -133,7 +138,7 @@ void AidedEstimator::filter_rates(const Vector3& w_B, double dt) {
 
 void AidedEstimator::advance(const ImuSample& imu, double dt) {
   if (dt <= 0.0) return;
-  const double crossed = std::min(dt, kLongestGap);
+  const double crossed = std::min(dt, seconds(FrameClock::kLongestGap));
   const int steps = static_cast<int>(std::ceil(crossed / kLongestStep));
   const Vector3 f_B = imu.f_B - accelerometer_offset_B_;
   for (int i = 0; i < steps; ++i) predict(f_B, imu.w_NB_B, crossed / steps);
@@ -211,22 +216,26 @@ void AidedEstimator::fuse_gnss(const GnssSample& gnss, Time now) {
 
 void AidedEstimator::recover(Time now) {
   ++recoveries_;
-  StartState again;
-  again.origin = origin_;
-  again.moving = true;
-  again.p_NB_N = last_good_.p_NB_N;
-  again.v_NB_N = last_good_.v_NB_N();
-  again.q_NB = last_good_.q_NB;
-  again.gyro_bias_B = last_good_.gyro_bias_B;
+  StartState again = going_on_from(last_good_, origin_);
   if (last_fix_ && seconds(now - heard_.gnss) < kFreshFix) {
     again.p_NB_N.head<2>() = last_fix_->p_N.head<2>();
     again.v_NB_N = last_fix_->v_N;
   }
-  start(again);
+  restart(again);
+}
+
+void AidedEstimator::restart(const StartState& again) {
+  accelerometer_offset_B_ = again.accelerometer_offset_B;
   delay_line_.clear();
+  start(again);
 }
 
 void AidedEstimator::seek_attitude() {
+  // Where the vehicle turned to in the meantime no covariance can tell: as unsure as at a start in motion.
+  StateEstimate here;
+  publish(here);
+  here.accelerometer_bias_B += accelerometer_offset_B_;
+  restart(going_on_from(here, origin_));
   attitude_lost_ = true;
   realigning_ = true;
   alignment_.restart_in_motion();
@@ -253,10 +262,11 @@ void AidedEstimator::realign_if_hopeless(const SensorFrame& frame, double dt) {
   again.p_NB_N.head<2>() = local_from_geodetic(place.latitude, place.longitude, origin_);
   again.p_NB_N.z() = kinematics().p_N.z();  // the barometer has gone on correcting the height
   again.origin = origin_;
-  again.accelerometer_offset_B = accelerometer_offset_B_;
+  StateEstimate before;
+  publish(before);
+  again.accelerometer_offset_B = accelerometer_offset_B_ + before.accelerometer_bias_B;
   again.moving = true;
-  start(again);
-  delay_line_.clear();
+  restart(again);
 }
 
 void AidedEstimator::look_after(StateEstimate& estimate, Time now, double dt) {

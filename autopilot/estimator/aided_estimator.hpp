@@ -132,6 +132,7 @@ class AidedEstimator : public Estimator {
   template <class Correction>
   void tell_delay_line(Correction&& correction);
   void recover(Time now);
+  void restart(const StartState& again);
   void realign_if_hopeless(const SensorFrame& frame, double dt);
   void filter_rates(const Vector3& w_B, double dt);
   void look_after(StateEstimate& estimate, Time now, double dt);

@@ -14,7 +14,14 @@ namespace {
 constexpr double kMostStillForceError = 1.0;  // m/s^2, of |f| - g at rest
 constexpr double kMostStillRate = 0.35;       // rad/s, gyro bias plus vibration at rest
 constexpr double kLeastFence = 2.0;           // Pa, so that a quantised sensor has no outliers
-constexpr double kStaleWindow = 10.0;         // durations; a window older than that begins anew
+constexpr double kStaleWindow = 10.0;         // durations, on top of what slow sensors need
+constexpr double kSlowestFixes = 1.0;         // s, from one fix to the next
+constexpr double kSlowestBaro = 0.1;          // s, from one sample to the next
+
+/// s, that a window may last: means over longer are of another time.
+double stale_after(const AlignmentParams& wanted) {
+  return kStaleWindow * wanted.duration + kSlowestFixes * wanted.fixes + kSlowestBaro * wanted.baro_samples;
+}
 
 Vector3 standard_deviation(const Vector3& sum, const Vector3& square_sum, int count) {
   const Vector3 mean = sum / count;
@@ -221,7 +228,7 @@ bool Alignment::add(const SensorFrame& frame, double dt, const AidingParams& par
     find_in_motion(params, now);
     return true;
   }
-  if ((!still && !may_move) || length > kStaleWindow * wanted.duration) begin_window(now);
+  if ((!still && !may_move) || length > stale_after(wanted)) begin_window(now);
   return false;
 }
 

@@ -108,13 +108,29 @@ void Ekf::correct_mag(const Vector3& m_B, Time now) {
   const Verdict verdict = mag_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
-    decorrelate(P_, kHeading, 1, R);
-    set_attitude({x_.theta.x(), x_.theta.y(), heading});
+    set_heading(heading, R);
     return;
   }
   Update update;
   update.fuse_block<3>(P_, innovation, H, kT, R);
   apply(update.correction);
+}
+
+void Ekf::set_heading(double heading, double variance) {
+  // The satellites know v_N. It must not turn with the heading: P goes over to v_N and back with the new
+  // axes.
+  EkfState::Matrix T = EkfState::Matrix::Identity();
+  const Vector3 v_N = rotation_NB(trig_) * x_.v_NB_B;
+  T.middleRows<3>(kV).middleCols<6>(kV) = ekf_gnss_velocity(x_, trig_).C;
+  P_ = T * P_ * T.transpose();
+  decorrelate(P_, kHeading, 1, variance);
+  set_attitude({x_.theta.x(), x_.theta.y(), heading});
+  const Matrix3 R_BN = rotation_NB(trig_).transpose();
+  x_.v_NB_B = R_BN * v_N;
+  T.middleRows<3>(kV).middleCols<3>(kV) = R_BN;
+  T.middleRows<3>(kV).middleCols<3>(kT) = -R_BN * ekf_gnss_velocity(x_, trig_).C.rightCols<3>();
+  P_ = T * P_ * T.transpose();
+  mirror_upper(P_);
 }
 
 void Ekf::correct_baro(double difference, Time now) {

@@ -84,6 +84,7 @@ class Ekf : public Tunable<AidedEstimator, EkfParams> {
   EkfStepNoise step_noise(double h) const;
   void set_attitude(const Vector3& theta);
   void apply(const EkfState::Vector& correction);
+  void set_heading(double heading, double variance);
   void fuse_velocity(const GnssObservation& fix, Time now, ScalarUpdate<EkfState::kSize>& update);
   void fuse_position(const GnssObservation& fix, Time now, ScalarUpdate<EkfState::kSize>& update);
 

@@ -7,13 +7,6 @@
 
 namespace ironbird::autopilot {
 
-namespace {
-
-// A field this near to vertical (squared sine of the angle) has no heading; keeps the quotients finite.
-constexpr double kLeastLevelness = 1.0e-9;
-
-}  // namespace
-
 GnssVelocityModel ekf_gnss_velocity(const EkfState& x, const EulerTrig& at) {
   const Matrix3 R_NB = rotation_NB(at);
   GnssVelocityModel model;

@@ -23,6 +23,9 @@ struct GnssVelocityModel {
 /// C belongs to the columns (v, Theta), which are neighbours: [R | d(R v)/dTheta].
 GnssVelocityModel ekf_gnss_velocity(const EkfState& x, const EulerTrig& at);
 
+/// A field this near to vertical (squared sine of the angle) has no azimuth; keeps the quotients finite.
+inline constexpr double kLeastLevelness = 1.0e-9;
+
 /// The tilt-compensated compass. The pseudo-measurement y(m, Theta) = declination - atan2(m1_y, m1_x) with
 /// m1 = Ry(theta) Rx(phi) m depends on the state through the tilt, so the innovation y - psi has the Jacobian
 /// -H with H = C - G, G = dy/dTheta, C = (0, 0, 1); and noise of m enters through F = dy/dm.

@@ -24,8 +24,7 @@ constexpr int kE = ErrorState::kGyroMisalignment;
 constexpr int kS = ErrorState::kGyroScale;
 constexpr int kM = ErrorState::kMagBias;
 
-constexpr double kLeastTurn = 1.0e-4;       // rad, below it the turn of the covariance is lost in it
-constexpr double kLeastLevelness = 1.0e-9;  // of a field that still has an azimuth
+constexpr double kLeastTurn = 1.0e-4;  // rad, below it the turn of the covariance is lost in it
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "autopilot/estimator/covariance.hpp"
+#include "autopilot/estimator/ekf_measurements.hpp"
 #include "autopilot/math/angles.hpp"
 
 namespace ironbird::autopilot {
@@ -18,9 +19,6 @@ constexpr int kA = ErrorState::kAccelerometerBias;
 constexpr int kW = ErrorState::kGnssWalk;
 constexpr int kB = ErrorState::kBaroWalk;
 constexpr int kM = ErrorState::kMagBias;
-
-// A field this near to vertical (squared sine of the angle) has no azimuth; keeps the quotients finite.
-constexpr double kLeastLevelness = 1.0e-9;
 
 }  // namespace
 

@@ -17,6 +17,9 @@ constexpr double kMostDistance = 1.0e6;       // m
 constexpr double kLeastPressure = 1.0e3;      // Pa
 constexpr double kMostPressure = 2.0e5;       // Pa
 
+constexpr Time kLongestHold = std::chrono::milliseconds(200);  // of an IMU sample, in place of unsound ones
+constexpr Time kFixesAnew = std::chrono::seconds(1);           // so far back only when the receiver restarts
+
 /// Every component is a number within +-limit. False for NaN.
 bool is_within(const Vector3& v, double limit) {
   return std::abs(v.x()) <= limit && std::abs(v.y()) <= limit && std::abs(v.z()) <= limit;
@@ -62,36 +65,68 @@ bool is_finite(const StateEstimate& e) {
          e.sigma_p_N.allFinite() && e.sigma_v_B.allFinite() && e.sigma_attitude.allFinite();
 }
 
+/// Adds `shift` to the stamps of all samples.
+void shift_stamps(SensorFrame& frame, Time shift) {
+  frame.imu.stamp += shift;
+  if (frame.mag) frame.mag->stamp += shift;
+  if (frame.baro) frame.baro->stamp += shift;
+  if (frame.gnss) frame.gnss->stamp += shift;
+  if (frame.external_pose) frame.external_pose->stamp += shift;
+}
+
 }  // namespace
 
-void Estimator::collect(const SensorFrame& frame) {
-  vetted_.imu.stamp = frame.imu.stamp;
+int Estimator::keep_new_fix(const std::optional<GnssSample>& newer) {
+  // The same fix twice is no second measurement.
+  if (newer && newest_fix_ && newer->stamp <= *newest_fix_ && *newest_fix_ - newer->stamp < kFixesAnew)
+    return 1;
+  const int dropped = keep_if_sound(newer, vetted_.gnss);
+  if (newer && dropped == 0) newest_fix_ = newer->stamp;
+  return dropped;
+}
+
+void Estimator::collect(SensorFrame frame, Time now) {
+  shift_stamps(frame, now - frame.imu.stamp);
+  vetted_.imu.stamp = now;
   if (is_sound(frame.imu)) {
     f_sum_B_ += frame.imu.f_B;
     w_sum_B_ += frame.imu.w_NB_B;
     ++imu_count_;
+    imu_was_away_ = imu_was_away_ || (imu_known_ && now - imu_heard_ > FrameClock::kLongestGap);
     imu_known_ = true;
+    imu_heard_ = now;
   } else {
     ++dropped_samples_;
     imu_held_ = true;
   }
   dropped_samples_ += keep_if_sound(frame.mag, vetted_.mag);
   dropped_samples_ += keep_if_sound(frame.baro, vetted_.baro);
-  dropped_samples_ += keep_if_sound(frame.gnss, vetted_.gnss);
+  dropped_samples_ += keep_new_fix(frame.gnss);
   dropped_samples_ += keep_if_sound(frame.external_pose, vetted_.external_pose);
   if (frame.status) vetted_.status = frame.status;
 }
 
+void Estimator::lose() {
+  if (last_.health != Health::kUninitialised) last_.health = Health::kLost;
+}
+
 const StateEstimate& Estimator::run(const SensorFrame& frame) {
-  if (started_ && frame.imu.stamp < newest_) {
+  if (!clock_.admits(frame.imu.stamp)) {
     ++refused_frames_;
+    if (clock_.lost()) lose();
     return last_;
   }
-  started_ = true;
-  newest_ = frame.imu.stamp;
-  collect(frame);
+  const Time now = frame.imu.stamp + clock_.shift();
+  collect(frame, now);
+  if (!imu_known_) return last_;
+  if (now - imu_heard_ > kLongestHold) {
+    // No work: to the filter it is a gap, which it knows how to cross.
+    lose();
+    last_.stamp = now;
+    return last_;
+  }
   double dt = 0.0;
-  if (!imu_known_ || !divider_.due(frame.imu.stamp, period(), dt)) return last_;
+  if (!divider_.due(now, period(), dt)) return last_;
 
   if (imu_count_ > 0) {
     vetted_.imu.f_B = f_sum_B_ / imu_count_;
@@ -104,8 +139,13 @@ const StateEstimate& Estimator::run(const SensorFrame& frame) {
   } else {
     ++non_finite_estimates_;
     last_.health = Health::kLost;
-    last_.stamp = frame.imu.stamp;
+    last_.stamp = now;
   }
+  forget_samples();
+  return last_;
+}
+
+void Estimator::forget_samples() {
   const ImuSample held = vetted_.imu;
   vetted_ = SensorFrame{};
   vetted_.imu = held;
@@ -113,20 +153,18 @@ const StateEstimate& Estimator::run(const SensorFrame& frame) {
   w_sum_B_.setZero();
   imu_count_ = 0;
   imu_held_ = false;
-  return last_;
+  imu_was_away_ = false;
 }
 
 void Estimator::reset() {
   last_ = StateEstimate{};
+  forget_samples();
   vetted_ = SensorFrame{};
-  f_sum_B_.setZero();
-  w_sum_B_.setZero();
-  imu_count_ = 0;
   imu_known_ = false;
-  imu_held_ = false;
+  imu_heard_ = Time{0};
+  newest_fix_.reset();
   divider_.reset();
-  newest_ = Time{0};
-  started_ = false;
+  clock_ = FrameClock{};
   refused_frames_ = 0;
   dropped_samples_ = 0;
   non_finite_estimates_ = 0;

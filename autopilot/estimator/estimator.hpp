@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "autopilot/estimator/frame_clock.hpp"
 #include "autopilot/module/module.hpp"
 #include "autopilot/types/sensor_frame.hpp"
 #include "autopilot/types/state_estimate.hpp"
@@ -9,11 +12,12 @@ namespace ironbird::autopilot {
 /// Turns sensor frames into a state estimate, once per IMU sample.
 class Estimator : public Module {
  public:
-  /// One step. Refuses frames that are older than the last. Drops samples that are not finite or physically
-  /// absurd: a slower sensor is then silent, the IMU keeps its last good sample and the estimate is marked
-  /// degraded. Keeps the last finite estimate, marked lost, when the work function returns one that is not
-  /// finite. With a period, the IMU samples between two works are averaged, and the newest sample of each
-  /// slower sensor waits for the next work.
+  /// One step. Refuses frames whose stamps do not go on from the last (FrameClock); after too many in a row
+  /// the estimate is lost. Drops samples that are not finite or physically absurd, and a fix that was there
+  /// before: a slower sensor is then silent, the IMU keeps its last good sample and the estimate is marked
+  /// degraded, and lost after 0.2 s. Keeps the last finite estimate, marked lost, when the work function
+  /// returns one that is not finite. With a period, the IMU samples between two works are averaged, and the
+  /// newest sample of each slower sensor waits for the next work.
   /// @param frame  frames in stamp order
   /// @return the estimate at the stamp of the last work; valid until the next call
   const StateEstimate& run(const SensorFrame& frame);
@@ -21,10 +25,10 @@ class Estimator : public Module {
   /// It flies on poses from outside only; where none can arrive it is of no use.
   virtual bool needs_external_pose() const { return false; }
 
-  /// How often `run` was given a frame that was older than the one before, and refused it.
+  /// How often `run` was given a frame whose stamp did not go on from the ones before, and refused it.
   int refused_frames() const { return refused_frames_; }
 
-  /// How many samples were dropped because they were not finite or absurd.
+  /// How many samples were dropped because they were not finite, absurd, or given before.
   int dropped_samples() const { return dropped_samples_; }
 
   /// How often the work function returned an estimate that was not finite.
@@ -37,8 +41,14 @@ class Estimator : public Module {
   /// @param dt  time since the previous call, s, >= 0; 0 on the first
   virtual StateEstimate estimate(const SensorFrame& frame, double dt) = 0;
 
+  /// Before this work the IMU was away for longer than FrameClock::kLongestGap: missing or not sound.
+  bool imu_was_away() const { return imu_was_away_; }
+
  private:
-  void collect(const SensorFrame& frame);
+  void collect(SensorFrame frame, Time now);
+  int keep_new_fix(const std::optional<GnssSample>& newer);
+  void lose();
+  void forget_samples();
 
   StateEstimate last_;
   SensorFrame vetted_;
@@ -47,9 +57,11 @@ class Estimator : public Module {
   int imu_count_ = 0;
   bool imu_known_ = false;
   bool imu_held_ = false;
+  bool imu_was_away_ = false;
+  Time imu_heard_{0};
+  std::optional<Time> newest_fix_;
   Divider divider_;
-  Time newest_{0};
-  bool started_ = false;
+  FrameClock clock_;
   int refused_frames_ = 0;
   int dropped_samples_ = 0;
   int non_finite_estimates_ = 0;

@@ -26,7 +26,8 @@ class Gate {
  public:
   /// @param nis  normalised innovation squared
   /// @param threshold  greatest that is accepted; 0: accept everything
-  /// @param persistence  after this long without one accepted measurement: reset
+  /// @param persistence  after this long without one accepted measurement, and at least three refused: reset.
+  /// After three times as long without a measurement it counts anew: two faults far apart are two faults.
   Verdict judge(double nis, double threshold, double persistence, Time now) {
     nis_ = nis;
     if (threshold <= 0.0 || nis <= threshold) {
@@ -34,9 +35,15 @@ class Gate {
       return Verdict::kAccept;
     }
     ++rejected_;
-    if (!disagreeing_) since_ = now;
+    const bool long_ago = persistence > 0.0 && seconds(now - last_) > kSilence * persistence;
+    if (!disagreeing_ || long_ago) {
+      since_ = now;
+      in_a_row_ = 0;
+    }
     disagreeing_ = true;
-    if (seconds(now - since_) < persistence) return Verdict::kReject;
+    last_ = now;
+    ++in_a_row_;
+    if (in_a_row_ < kLeastInARow || seconds(now - since_) < persistence) return Verdict::kReject;
     disagreeing_ = false;
     ++resets_;
     return Verdict::kReset;
@@ -48,9 +55,14 @@ class Gate {
   int resets() const { return resets_; }
 
  private:
+  static constexpr int kLeastInARow = 3;
+  static constexpr double kSilence = 3.0;  // persistences
+
   double nis_ = 0.0;
   bool disagreeing_ = false;
+  int in_a_row_ = 0;
   Time since_{0};
+  Time last_{0};
   int rejected_ = 0;
   int resets_ = 0;
 };

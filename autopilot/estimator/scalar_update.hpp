@@ -8,7 +8,7 @@ namespace ironbird::autopilot {
 ///
 /// All rows of C belong to the same linearisation point. Fused one after the other, with the innovation of
 /// each row reduced by what the earlier rows already explained, independent measurements give exactly the
-/// joint update x + K (y - h), P = (I - K C) P (I - K C)^T + K R K^T (docs/equations.md, section 6). The
+/// joint update x + K (y - h), P = (I - K C) P (I - K C)^T + K R K^T (docs/equations.md, section 4). The
 /// covariance stays symmetric to the last bit.
 template <int N>
 struct ScalarUpdate {

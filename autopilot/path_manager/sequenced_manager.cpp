@@ -8,10 +8,6 @@ namespace ironbird::autopilot {
 
 namespace {
 
-bool is_usable(Health health) {
-  return health == Health::kGood || health == Health::kDegraded;
-}
-
 MotionPoint resting_at(const Vector3& p_N, double heading) {
   MotionPoint point;
   point.p_N = p_N;

@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kSmallestCosine = 0.1;  // of the pitch, in the heading rate: about 84 degrees
 
-bool is_usable(Health health) {
-  return health == Health::kGood || health == Health::kDegraded;
-}
-
 /// Heading rate of the estimate, rad/s: (w_y sin(roll) + w_z cos(roll)) / cos(pitch), with the last row of
 /// R_NB for the products of angles.
 double turning(const StateEstimate& estimate) {

@@ -26,6 +26,11 @@ constexpr std::array<std::pair<Health, std::string_view>, 4> enumerators(Health)
            {Health::kLost, "lost"}}};
 }
 
+/// There is an estimate, and its height and attitude may be flown on.
+constexpr bool is_usable(Health health) {
+  return health == Health::kGood || health == Health::kDegraded;
+}
+
 /// Where latitude, longitude and altitude of the local frame N begin.
 struct LocalOrigin {
   bool known = false;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace ironbird::simulator {
 
@@ -24,7 +25,8 @@ GnssReading Gnss::measure(const Truth& truth, Time now, const FaultState& faults
   GnssReading reading;
   reading.taken = now;
   reading.latitude = site_.latitude + north_.apply(p_NA_N.x(), jump_N.x()) / kEarthRadius;
-  reading.longitude = site_.longitude + east_.apply(p_NA_N.y(), jump_N.y()) / parallel_radius_;
+  reading.longitude = std::remainder(site_.longitude + east_.apply(p_NA_N.y(), jump_N.y()) / parallel_radius_,
+                                     2.0 * std::numbers::pi);
   reading.altitude = site_.altitude + altitude_.apply(-p_NA_N.z(), -jump_N.z());
   for (int i = 0; i < 3; ++i) {
     reading.v_NB_N[i] = velocity_[static_cast<std::size_t>(i)].apply(v_NA_N[i]);

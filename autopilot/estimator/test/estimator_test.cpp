@@ -23,10 +23,12 @@ class Listener final : public Estimator {
   SensorFrame heard;
   double dt = -1.0;
   double answer = 1.0;
+  bool was_away = false;
 
  protected:
   StateEstimate estimate(const SensorFrame& frame, double step) override {
     ++works;
+    was_away = imu_was_away();
     heard = frame;
     dt = step;
     StateEstimate x;
@@ -68,6 +70,88 @@ TEST(EstimatorTest, HoldsTheImuAndSaysDegradedWhenASampleIsNotFinite) {
   EXPECT_EQ(listener.heard.imu.stamp, Time(milliseconds(5)));
   EXPECT_EQ(x.health, Health::kDegraded);
   EXPECT_EQ(listener.run(frame_at(10)).health, Health::kGood);
+}
+
+/// Gives a frame every 5 ms from one stamp to the other, both inclusive.
+const StateEstimate& run_through(Estimator& estimator, int from_ms, int to_ms, double f_z = -9.81) {
+  for (int ms = from_ms; ms < to_ms; ms += 5) estimator.run(frame_at(ms, f_z));
+  return estimator.run(frame_at(to_ms, f_z));
+}
+
+TEST(EstimatorTest, SaysLostWhenTheImuIsHeldForTooLong) {
+  Listener listener;
+  run_through(listener, 0, 100);
+  EXPECT_EQ(run_through(listener, 105, 300, kNan).health, Health::kDegraded);
+  EXPECT_EQ(run_through(listener, 305, 310, kNan).health, Health::kLost);
+  EXPECT_EQ(run_through(listener, 315, 320).health, Health::kGood);
+}
+
+TEST(EstimatorTest, TellsItsFilterThatTheImuWasAway) {
+  Listener listener;
+  run_through(listener, 0, 100);
+  EXPECT_FALSE(listener.was_away);
+  run_through(listener, 105, 700, kNan);
+  listener.run(frame_at(705));
+  EXPECT_TRUE(listener.was_away);
+  listener.run(frame_at(710));
+  EXPECT_FALSE(listener.was_away);
+}
+
+TEST(EstimatorTest, TakesNoNoticeOfOneWildStamp) {
+  Listener listener;
+  run_through(listener, 0, 100);
+  constexpr int kOneHour = 3600 * 1000;
+  EXPECT_EQ(listener.run(frame_at(kOneHour)).health, Health::kGood);
+  listener.run(frame_at(105));
+  EXPECT_EQ(listener.heard.imu.stamp, Time(milliseconds(105)));
+  EXPECT_EQ(listener.refused_frames(), 1);
+}
+
+TEST(EstimatorTest, GoesOnAfterAClockThatHasJumpedAhead) {
+  Listener listener;
+  run_through(listener, 0, 100);
+  run_through(listener, 9000, 9005);
+  EXPECT_TRUE(listener.was_away);
+  EXPECT_EQ(listener.heard.imu.stamp, Time(milliseconds(9005)));
+}
+
+TEST(EstimatorTest, GoesOnInItsOwnTimeWhenTheSendersClockBeginsAnew) {
+  Listener listener;
+  const Time before = run_through(listener, 5000, 6000).stamp;
+  const int works = listener.works;
+  EXPECT_EQ(run_through(listener, 0, 45).stamp, before) << "they may be stragglers";
+  SensorFrame frame = frame_at(50);
+  frame.mag = MagSample{.stamp = milliseconds(50), .m_B = Vector3::UnitX()};
+  const StateEstimate& x = listener.run(frame);
+  EXPECT_EQ(listener.works, works + 1);
+  EXPECT_TRUE(listener.was_away);
+  EXPECT_GT(x.stamp, before + std::chrono::seconds(1)) << "nothing from before is fresh";
+  EXPECT_EQ(listener.heard.mag->stamp, x.stamp);
+  const Time then = x.stamp;
+  EXPECT_EQ(listener.run(frame_at(55)).stamp, then + milliseconds(5));
+}
+
+TEST(EstimatorTest, SaysLostWhenNoStampsAgree) {
+  Listener listener;
+  run_through(listener, 5000, 6000);
+  for (int i = 0; i < 20; ++i) listener.run(frame_at(4000 - 50 * (i % 7)));
+  EXPECT_EQ(listener.run(frame_at(3000)).health, Health::kLost);
+}
+
+TEST(EstimatorTest, CountsAFixOnlyOnce) {
+  Listener listener;
+  SensorFrame frame = frame_at(0);
+  frame.gnss = GnssSample{.stamp = milliseconds(1)};
+  listener.run(frame);
+  EXPECT_TRUE(listener.heard.gnss.has_value());
+  frame.imu.stamp = milliseconds(5);
+  listener.run(frame);
+  EXPECT_FALSE(listener.heard.gnss.has_value());
+  EXPECT_EQ(listener.dropped_samples(), 1);
+  frame.gnss->stamp = milliseconds(2);
+  frame.imu.stamp = milliseconds(10);
+  listener.run(frame);
+  EXPECT_TRUE(listener.heard.gnss.has_value());
 }
 
 TEST(EstimatorTest, WaitsForTheFirstSoundImuSample) {
@@ -152,8 +236,8 @@ TEST(ExternalPoseTest, SaysLostWhenThePoseIsVeryOld) {
   SensorFrame frame = frame_at(0);
   frame.external_pose = ExternalPose{};
   estimator.run(frame);
-  EXPECT_EQ(estimator.run(frame_at(900)).health, Health::kDegraded);
-  EXPECT_EQ(estimator.run(frame_at(1100)).health, Health::kLost);
+  EXPECT_EQ(run_through(estimator, 5, 900).health, Health::kDegraded);
+  EXPECT_EQ(run_through(estimator, 905, 1100).health, Health::kLost);
 }
 
 TEST(ExternalPoseTest, SaysDegradedWhenThePoseIsOld) {
@@ -161,7 +245,7 @@ TEST(ExternalPoseTest, SaysDegradedWhenThePoseIsOld) {
   SensorFrame frame = frame_at(0);
   frame.external_pose = ExternalPose{};
   estimator.run(frame);
-  EXPECT_EQ(estimator.run(frame_at(1000)).health, Health::kDegraded);
+  EXPECT_EQ(run_through(estimator, 5, 1000).health, Health::kDegraded);
 }
 
 }  // namespace

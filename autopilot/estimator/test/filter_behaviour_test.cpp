@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -9,98 +10,12 @@
 #include "autopilot/estimator/ekf.hpp"
 #include "autopilot/estimator/error_state_filter.hpp"
 #include "autopilot/estimator/test/fake_flight.hpp"
+#include "autopilot/estimator/test/filter_fixture.hpp"
 #include "autopilot/math/angles.hpp"
 #include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-// What both filters must do, on the default parameters and the noise of FakeErrors.
-constexpr double kGoodPosition = 1.0;  // m, receiver with 0.05 m white error and a slow one of none
-constexpr double kGoodSpeed = 0.15;    // m/s, ten times the Doppler noise
-constexpr double kGoodAngle = 0.03;    // rad
-
-enum class Kind { kEkf, kErrorState };
-
-class FilterTest : public ::testing::TestWithParam<Kind> {
- protected:
-  FilterTest() { make(AidingParams{}, true); }
-
-  /// @param plain  the kind's own defaults, only the declination set
-  void make(const AidingParams& aiding, bool plain) {
-    if (GetParam() == Kind::kEkf) {
-      auto filter = std::make_unique<Ekf>();
-      EkfParams params;
-      if (!plain) params.aiding = aiding;
-      params.aiding.mag.declination = sensors.declination;
-      filter->set_params(params);
-      estimator = std::move(filter);
-    } else {
-      auto filter = std::make_unique<ErrorStateFilter>();
-      ErrorStateParams params;
-      if (!plain) params.aiding = aiding;
-      params.aiding.mag.declination = sensors.declination;
-      filter->set_params(params);
-      estimator = std::move(filter);
-    }
-  }
-
-  void fly(double seconds) {
-    const double end = sensors.time() + seconds;
-    while (sensors.time() < end) step(sensors.next());
-  }
-
-  void step(const SensorFrame& frame) {
-    x = estimator->run(frame);
-    ASSERT_TRUE(x.p_NB_N.allFinite() && x.v_NB_B.allFinite() && x.q_NB.coeffs().allFinite());
-  }
-
-  double position_error() const { return (x.p_NB_N - sensors.truth().p_N).norm(); }
-  double horizontal_error() const { return (x.p_NB_N - sensors.truth().p_N).head<2>().norm(); }
-  double speed_error() const { return (x.v_NB_N() - sensors.truth().v_N).norm(); }
-  double angle_error() const { return x.q_NB.angularDistance(Quaternion(sensors.truth().R_NB)); }
-
-  void expect_good() const {
-    EXPECT_EQ(x.health, Health::kGood);
-    EXPECT_LT(position_error(), kGoodPosition);
-    EXPECT_LT(speed_error(), kGoodSpeed);
-    EXPECT_LT(angle_error(), kGoodAngle);
-  }
-
-  double probed(const std::string& wanted) const {
-    struct Finder final : ProbeVisitor {
-      std::string wanted;
-      double found = kNan;
-      void operator()(std::string_view name, double value, std::string_view) override {
-        if (name == wanted) found = value;
-      }
-      void operator()(std::string_view, const Vector3&, std::string_view) override {}
-    } finder;
-    finder.wanted = wanted;
-    estimator->probe(finder);
-    return finder.found;
-  }
-
-  Vector3 probed_vector(const std::string& wanted) const {
-    struct Finder final : ProbeVisitor {
-      std::string wanted;
-      Vector3 found = Vector3::Constant(kNan);
-      void operator()(std::string_view, double, std::string_view) override {}
-      void operator()(std::string_view name, const Vector3& value, std::string_view) override {
-        if (name == wanted) found = value;
-      }
-    } finder;
-    finder.wanted = wanted;
-    estimator->probe(finder);
-    return finder.found;
-  }
-
-  FakeSensors sensors{7};
-  std::unique_ptr<AidedEstimator> estimator;
-  StateEstimate x;
-};
 
 TEST_P(FilterTest, FindsItsStartAtRestBeforeArming) {
   // GIVEN a vehicle at rest, never armed, with a gyro bias
@@ -299,34 +214,6 @@ TEST_P(FilterTest, GoesOnFromTheEstimateOfItsPredecessor) {
   expect_good();
 }
 
-TEST_P(FilterTest, BridgesAGapInTheImu) {
-  fly(30.0);
-  for (int i = 0; i < 100; ++i) sensors.next();  // 0.25 s lost
-  step(sensors.next());
-  EXPECT_EQ(x.health, Health::kDegraded);
-  fly(5.0);
-  EXPECT_LT(speed_error(), 2.0 * kGoodSpeed);
-  EXPECT_LT(position_error(), kGoodPosition);
-}
-
-TEST_P(FilterTest, SaysThatThePositionIsNotKnownAfterALongGnssLoss) {
-  fly(20.0);
-  EXPECT_TRUE(x.position_known);
-  EXPECT_LT(x.position_age, 0.2);
-  sensors.gnss_on = false;
-  fly(14.5);  // the default of gnss.coast is 15 s
-  EXPECT_TRUE(x.position_known);
-  fly(1.0);
-  EXPECT_FALSE(x.position_known);
-  EXPECT_EQ(x.health, Health::kDegraded) << "height and attitude are still good";
-  fly(60.0);
-  EXPECT_EQ(x.health, Health::kDegraded);
-  EXPECT_NEAR(x.p_NB_N.z(), sensors.truth().p_N.z(), 2.0) << "m, on the barometer";
-  sensors.gnss_on = true;
-  fly(1.0);
-  EXPECT_TRUE(x.position_known);
-}
-
 TEST_P(FilterTest, IsLostWithoutSatellitesAndBarometer) {
   fly(20.0);
   sensors.gnss_on = sensors.baro_on = false;
@@ -334,30 +221,6 @@ TEST_P(FilterTest, IsLostWithoutSatellitesAndBarometer) {
   EXPECT_EQ(x.health, Health::kDegraded);
   fly(1.0);
   EXPECT_EQ(x.health, Health::kLost) << "nothing has measured the height for 15 s";
-}
-
-TEST_P(FilterTest, DoesNotTrustItsAttitudeAfterALongGapInTheImu) {
-  fly(20.0);
-  for (int i = 0; i < 2000; ++i) sensors.next();  // 5 s lost
-  step(sensors.next());
-  EXPECT_EQ(x.health, Health::kLost);
-  fly(15.0);
-  EXPECT_EQ(x.health, Health::kGood) << "it has sought its attitude anew";
-  EXPECT_LT(angle_error(), 3.0 * kGoodAngle);
-}
-
-TEST_P(FilterTest, HandsOnForHowLongThePositionWasNotMeasured) {
-  fly(20.0);
-  sensors.gnss_on = false;
-  fly(10.0);
-  Signals signals;
-  signals.estimate = x;
-  make(AidingParams{}, true);
-  estimator->take_over(signals);
-  fly(4.0);
-  EXPECT_NEAR(x.position_age, 14.0, 0.2);
-  fly(1.5);
-  EXPECT_FALSE(x.position_known) << "an exchange is no fix";
 }
 
 TEST_P(FilterTest, WorksAtHalfTheRateOfTheImu) {

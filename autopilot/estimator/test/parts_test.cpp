@@ -62,6 +62,15 @@ TEST(GateTest, BeginsToCountAnewAfterOneAgreement) {
   EXPECT_EQ(gate.judge(10.0, 9.0, 2.0, milliseconds(2500)), Verdict::kReject);
 }
 
+TEST(GateTest, DoesNotTakeTwoFaultsFarApartForADisagreement) {
+  Gate gate;
+  EXPECT_EQ(gate.judge(10.0, 9.0, 3.0, milliseconds(0)), Verdict::kReject);
+  EXPECT_EQ(gate.judge(10.0, 9.0, 3.0, milliseconds(5000)), Verdict::kReject) << "two are too few";
+  EXPECT_EQ(gate.judge(10.0, 9.0, 3.0, milliseconds(15000)), Verdict::kReject) << "too long ago";
+  EXPECT_EQ(gate.judge(10.0, 9.0, 3.0, milliseconds(16000)), Verdict::kReject);
+  EXPECT_EQ(gate.judge(10.0, 9.0, 3.0, milliseconds(18000)), Verdict::kReset);
+}
+
 TEST(GateTest, RejectsWhatIsNoNumber) {
   Gate gate;
   EXPECT_EQ(gate.judge(std::nan(""), 9.0, 2.0, milliseconds(0)), Verdict::kReject);

@@ -223,6 +223,17 @@ TEST(GnssTest, PutsMetresOnTheSphereTheAutopilotUses) {
   EXPECT_EQ(reading.v_NB_N, truth.v_NB_N);
 }
 
+TEST(GnssTest, StaysWithinHalfATurnAtTheDateLine) {
+  SensorSite site;
+  site.latitude = 0.0;
+  site.longitude = std::numbers::pi - 1e-6;  // 6 m before it
+  Truth truth;
+  truth.p_NB_N.y() = 50.0;
+  Gnss gnss(GnssParams{}, site, 0.1, 1);
+  const double beyond = 50.0 / kEarthRadius - 1e-6;
+  EXPECT_NEAR(gnss.measure(truth, kNow, kNoFaults, true).longitude, -std::numbers::pi + beyond, 1e-14);
+}
+
 TEST(GnssTest, MeasuresItsAntenna) {
   GnssParams params;
   params.p_BA_B = Vector3(0.0, 0.0, -0.5);
