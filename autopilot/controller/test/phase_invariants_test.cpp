@@ -212,15 +212,7 @@ class GroundWalkTest : public ::testing::TestWithParam<FlightPhase> {
   /// A controller on the ground in the phase of the test; the requests are granted under good conditions.
   FcuCommand step(const Ground& g) {
     CascadedController controller;
-    CascadedControllerParams params = controller.params();
-    params.take_off_on_arming = g.take_off_on_arming;
-    params.zeros_while_disarmed = g.zeros_while_disarmed;
-    controller.set_params(params);
-    Signals signals;
-    signals.flight.phase = GetParam();
-    signals.flight.memory.on_ground = GetParam() != kDisarmed;
-    signals.flight.memory.launched = GetParam() != kDisarmed;
-    controller.take_over(signals);
+    set_down(controller, g);
     FcuStatus status{.stamp = kFirst, .armed = true};
     StateEstimate estimate;
     estimate.stamp = kFirst;
@@ -259,6 +251,18 @@ class GroundWalkTest : public ::testing::TestWithParam<FlightPhase> {
  private:
   static constexpr Time kFirst = std::chrono::milliseconds(10);
   static constexpr Time kStep = std::chrono::microseconds(2500);
+
+  static void set_down(CascadedController& controller, const Ground& g) {
+    CascadedControllerParams params = controller.params();
+    params.take_off_on_arming = g.take_off_on_arming;
+    params.zeros_while_disarmed = g.zeros_while_disarmed;
+    controller.set_params(params);
+    Signals signals;
+    signals.flight.phase = GetParam();
+    signals.flight.memory.on_ground = GetParam() != kDisarmed;
+    signals.flight.memory.launched = GetParam() != kDisarmed;
+    controller.take_over(signals);
+  }
 
   static bool ask(CascadedController& controller, FlightWish wish, const StateEstimate& estimate,
                   const FcuStatus& status) {
