@@ -18,12 +18,27 @@ struct AutopilotConfig {
   struct Slot {
     std::string kind;
     Time period{0};
+
+    template <class Self, class Visit>
+    static void describe(Self& self, Visit&& visit) {
+      visit("kind", self.kind, "", "name in the registry of modules");
+      visit("period", self.period, "ns", "of the module's work; 0: every tick");
+    }
   };
   Slot estimator{"ekf", Time{0}};
   Slot path_planner{"waypoint_planner", Time{0}};
   Slot path_manager{"smoothstep_manager", Time{0}};
   Slot trajectory_follower{"flat_pid_follower", Time{0}};
   Slot controller{"cascaded_controller", Time{0}};
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("estimator", self.estimator, "", "the module in this slot");
+    visit("path_planner", self.path_planner, "", "the module in this slot");
+    visit("path_manager", self.path_manager, "", "the module in this slot");
+    visit("trajectory_follower", self.trajectory_follower, "", "the module in this slot");
+    visit("controller", self.controller, "", "the module in this slot");
+  }
 };
 
 /// Flies one multirotor. A pure stepping object: no clock, no threads, no I/O.
@@ -82,7 +97,7 @@ class Autopilot {
 };
 
 /// A place for an exchangeable module: its name, and where its configuration, the kinds for it, and the
-/// module that flies in it are found.
+/// module that flies in it are found. No `describe`: it holds pointers to members.
 template <class Base>
 struct ModuleSlot {
   using Module = Base;

@@ -10,7 +10,7 @@
 namespace ironbird::autopilot {
 
 /// The kinds of module that can be chosen by name. A researcher's own kind is one `add` on a copy of
-/// standard_modules().
+/// standard_modules(). No `describe`: it holds makers of modules, not quantities.
 struct Modules {
   Registry<Estimator> estimators;
   Registry<PathPlanner> path_planners;

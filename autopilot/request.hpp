@@ -18,21 +18,43 @@ namespace ironbird::autopilot {
 struct AddWaypoint {
   Waypoint waypoint;
   std::optional<std::uint32_t> at;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("waypoint", self.waypoint, "", "the waypoint");
+    visit("at", self.at, "1", "index it gets; absent: the end");
+  }
 };
 /// Removes the waypoint with this index.
 struct RemoveWaypoint {
   std::uint32_t index = 0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("index", self.index, "1", "which, from 0");
+  }
 };
 /// Replaces the whole route.
 struct SetRoute {
   std::vector<Waypoint> waypoints;
   bool cyclic = false;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("waypoints", self.waypoints, "", "in the order of flight");
+    visit("cyclic", self.cyclic, "1", "after the last comes the first");
+  }
 };
 /// Empties the route: the vehicle holds where it is.
 struct ClearRoute {};
 /// Holds here for `duration` seconds, or until released, then flies on.
 struct HoldHere {
   std::optional<double> duration;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("duration", self.duration, "s", "how long; absent: until released");
+  }
 };
 /// Ends a hold.
 struct Release {};
@@ -51,21 +73,21 @@ struct Land {};
 struct Resume {};
 /// Asks for the waypoints that are wanted; the answer has a line for each.
 struct ListRoute {};
-/// Sets one parameter.
+/// Sets one parameter. No `describe`: the value may be of three types.
 struct SetParameter {
   std::string path;
   ParameterValue value;
 };
 /// Replaces the module in `slot` (estimator, path_planner, path_manager, trajectory_follower, controller) by
 /// one of `kind`. The newcomer gets `settings` and whatever the operator has set since, and from a
-/// predecessor of its own kind everything.
+/// predecessor of its own kind everything. No `describe`: the settings may be of three types.
 struct SwapModule {
   std::string slot;
   std::string kind;
   std::vector<ParameterSetting> settings = {};
 };
 /// Flies this setpoint instead of the follower's, at any of the twelve entry points; empty: the follower
-/// flies again.
+/// flies again. No `describe`: each entry point has its own members, described in `control_setpoint.hpp`.
 struct OverrideSetpoint {
   std::optional<ControlSetpoint> setpoint;
 };
@@ -78,6 +100,13 @@ struct RequestOutcome {
   bool accepted = false;
   std::string reason;
   std::vector<std::string> answer = {};
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("accepted", self.accepted, "1", "it is done, or will be at the next step");
+    visit("reason", self.reason, "", "why it was refused; empty when it was not");
+    visit("answer", self.answer, "", "lines for whoever asked a question");
+  }
 };
 
 }  // namespace ironbird::autopilot

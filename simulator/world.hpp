@@ -23,12 +23,25 @@ struct WorldConfig {
   VehicleParams vehicle;
   EnvironmentParams environment;
   SensorSuiteParams sensors;
-  Vector3 initial_p_NB_N =
-      Vector3::Zero();           ///< m; height is corrected so that the vehicle rests when `on_ground`
-  double initial_heading = 0.0;  ///< rad
-  bool on_ground = true;         ///< settle on the ground before time zero; otherwise hover in the air
-  Time tick = std::chrono::microseconds(2500);  ///< step of the plant and of the sensors
+  Vector3 initial_p_NB_N = Vector3::Zero();
+  double initial_heading = 0.0;
+  bool on_ground = true;
+  Time tick = std::chrono::microseconds(2500);
   std::uint64_t seed = 1;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("vehicle", self.vehicle, "", "the vehicle");
+    visit("environment", self.environment, "", "air, ground, field");
+    visit("sensors", self.sensors, "", "what it carries");
+    visit("initial_p_NB_N", self.initial_p_NB_N, "m",
+          "where it starts; the height is corrected so that it rests when `on_ground`");
+    visit("initial_heading", self.initial_heading, "rad", "its heading there");
+    visit("on_ground", self.on_ground, "1",
+          "settle on the ground before time zero; otherwise hover in the air");
+    visit("tick", self.tick, "ns", "step of the plant and of the sensors");
+    visit("seed", self.seed, "1", "of every noise in the world");
+  }
 };
 
 /// One vehicle in one environment: steps the plant, samples the sensors, applies faults.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "autopilot/controller/phase_table.hpp"
 #include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
@@ -130,10 +131,12 @@ bool CascadedController::rests_with_pilot(const StateEstimate& estimate) const {
 
 bool CascadedController::take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
                                          const FcuStatus& status, FlightPhase phase) const {
+  // Whoever takes the vehicle between the grant and the step keeps it.
+  if (status.failsafe || status.pilot_holds()) return false;
   if (wishes_[static_cast<std::size_t>(FlightWish::kTakeOff)]) return true;
   return params().take_off_on_arming && phase == FlightPhase::kDisarmed && armed_at_ &&
          seconds(estimate.stamp - *armed_at_) <= params().arming_patience &&
-         !std::holds_alternative<NoSetpoint>(setpoint) && !status.failsafe && !status.pilot_holds();
+         !std::holds_alternative<NoSetpoint>(setpoint);
 }
 
 PhaseInputs CascadedController::inputs(const ControlSetpoint& setpoint, bool landing,
@@ -189,9 +192,10 @@ double CascadedController::sink_rate(const StateEstimate& estimate) const {
 
 FcuCommand CascadedController::land(FlightPhase phase, const StateEstimate& estimate, bool overridden,
                                     const Cascade::Step& step) {
-  if (overridden) touch_down_.reset();
+  // Others may have flown it off; while it lies still it is where it landed.
+  if (overridden && !rests_since_) touch_down_.reset();
   notebook().on_ground = touch_down_.felt();
-  if (touch_down_.felt()) {
+  if (touch_down_.felt() || !is_usable(estimate)) {
     cascade_.reset();
     return PassThroughCommand{};
   }

@@ -23,10 +23,7 @@ const FcuCommand& Controller::run(const ControlSetpoint& setpoint, bool landing,
       memory_.launch_heading = estimate.heading;
     }
   }
-  if (!all_finite(last_)) {
-    last_ = SilenceCommand{};
-    ++withheld_commands_;
-  }
+  if (!all_finite(last_)) last_ = SilenceCommand{};
   return last_;
 }
 
@@ -35,7 +32,6 @@ void Controller::reset() {
   step_ = PhaseStep{};
   memory_ = FlightMemory{};
   divider_.reset();
-  withheld_commands_ = 0;
 }
 
 void Controller::take_over(const Signals& signals) {

@@ -12,8 +12,7 @@ namespace ironbird::autopilot {
 /// Turns a setpoint at any of the twelve entry points into a command for the FCU, and owns the flight phase.
 class Controller : public Module {
  public:
-  /// One step. Non-finite commands are replaced by SilenceCommand and counted; a
-  /// non-finite setpoint is taken as none.
+  /// One step. Non-finite commands are replaced by SilenceCommand; a non-finite setpoint is taken as none.
   /// @param setpoint  what to fly in the offboard phase
   /// @param landing   the trajectory has come to a landing waypoint: begin the descent
   /// @return the command; valid until the next call
@@ -29,9 +28,6 @@ class Controller : public Module {
 
   /// The operator's wish. Granted at the next step, or refused with a reason; never kept for later.
   virtual RequestOutcome request(FlightWish wish, const StateEstimate& estimate, const FcuStatus& status) = 0;
-
-  /// How often a command was not finite and was withheld.
-  int withheld_commands() const { return withheld_commands_; }
 
   void reset() override;
 
@@ -52,7 +48,6 @@ class Controller : public Module {
   PhaseStep step_;
   FlightMemory memory_;
   Divider divider_;
-  int withheld_commands_ = 0;
 };
 
 }  // namespace ironbird::autopilot

@@ -63,51 +63,6 @@ struct PhaseStep {
   }
 };
 
-/// The part of the state machine that is the same in every phase in the air.
-constexpr PhaseStep next_when_something_is_wrong(FlightPhase phase, const PhaseInputs& in) {
-  using enum FlightPhase;
-  if (phase == kSilent) {
-    const bool may_fly = in.estimate_usable && in.position_known;
-    if (may_fly && in.resume_wanted) return {kHold, PhaseCause::kPlanned};
-    if (!in.estimate_usable || !(in.silence_short || in.landing_wanted)) return {kSilent, {}};
-    return {in.position_known ? kLanding : kLevelDescent, PhaseCause::kEstimateBack};
-  }
-  if (!in.estimate_usable) return {kSilent, PhaseCause::kEstimateLost};
-  if (phase == kLevelDescent) {
-    if (!in.position_known) return {kLevelDescent, {}};
-    return {in.resume_wanted ? kHold : kLanding, PhaseCause::kPositionKnown};
-  }
-  return in.position_known ? PhaseStep{phase, {}} : PhaseStep{kLevelDescent, PhaseCause::kPositionUnknown};
-}
-
-/// The state machine of the controller: one row per phase and reason. ROScopter paper, section on the
-/// controller; what does not lead up is ours.
-constexpr PhaseStep next_phase(FlightPhase phase, const PhaseInputs& in) {
-  using enum FlightPhase;
-  if (!in.armed) return {kDisarmed, {}};
-  const bool may_climb = in.take_off_wanted && in.estimate_usable && in.position_known;
-  if (phase == kDisarmed) return {may_climb ? kTakeOff : kDisarmed, {}};
-  if (in.rests_with_pilot) return {kDisarmed, PhaseCause::kRestsWithPilot};
-  if (in.on_ground && (phase == kLanding || phase == kLevelDescent)) {
-    return {may_climb ? kTakeOff : phase, {}};
-  }
-  const PhaseStep forced = next_when_something_is_wrong(phase, in);
-  if (forced.phase != phase || phase == kSilent || phase == kLevelDescent) return forced;
-  switch (phase) {
-    case kTakeOff:
-      if (in.landing_wanted) return {kLanding, {}};
-      return {in.height_reached ? kHold : kTakeOff, {}};
-    case kHold:
-      if (in.landing_wanted) return {kLanding, {}};
-      return {in.hold_over && in.setpoint_valid ? kOffboard : kHold, {}};
-    case kOffboard:
-      if (in.landing_wanted || (in.setpoint_valid && in.route_lands)) return {kLanding, {}};
-      return {in.setpoint_valid ? kOffboard : kHold, {}};
-    default:
-      return {in.resume_wanted ? kHold : kLanding, {}};
-  }
-}
-
 /// What a wish is measured by.
 struct WishConditions {
   FlightPhase phase = FlightPhase::kDisarmed;

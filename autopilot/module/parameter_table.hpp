@@ -18,7 +18,7 @@ class Module;
 /// A value that a parameter can take.
 using ParameterValue = std::variant<bool, int, double>;
 
-/// One parameter: where it lives and what it may be.
+/// One parameter: where it lives and what it may be. No `describe`: it is what a `describe` was read into.
 struct ParameterSlot {
   std::string path;
   std::variant<bool*, int*, double*> value;

@@ -69,7 +69,7 @@ std::optional<RcFrame> RcPilot::frame(const virtual_fcu::Firmware& firmware, Tim
   set_switch(frame, parameters, parameter("RC_ARM_CHN"), arm_);
   set_switch(frame, parameters, parameter("RC_ATT_OVRD_CHN"), override_);
   set_switch(frame, parameters, parameter("RC_THR_OVRD_CHN"), override_);
-  set_switch(frame, parameters, parameter("RC_ATT_CTRL_CHN"), angle_mode_);
+  set_switch(frame, parameters, parameter("RC_ATT_CTRL_CHN"), true);
   frame.failsafe = link_ == Link::kLost;
   return frame;
 }

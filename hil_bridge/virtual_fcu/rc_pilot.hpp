@@ -22,7 +22,7 @@ constexpr std::array<std::pair<Stick, std::string_view>, 4> enumerators(Stick) {
 }
 
 /// The simulated pilot and the transmitter in their hands: the only one who arms. Starts with sticks centred,
-/// throttle down, arm switch off and the override switches on, so that the pilot has control.
+/// throttle down, arm switch off and the override switches on, so that the pilot has control. Flies angles.
 ///
 /// Knows the receiver's channels from the FCU's parameters. Does not fly: sticks stay where they are put.
 class RcPilot {
@@ -32,8 +32,6 @@ class RcPilot {
   void arm(bool wanted);
   /// Switches both override switches: on, the pilot has control; off, the companion.
   void override_companion(bool wanted) { override_ = wanted; }
-  /// Switches the attitude mode: on, angles; off, rates.
-  void angle_mode(bool wanted) { angle_mode_ = wanted; }
   /// @param value  -1..1, throttle 0..1; right, nose up, clockwise and up positive
   void set_stick(Stick stick, double value);
 
@@ -55,7 +53,6 @@ class RcPilot {
   Link link_ = Link::kGood;
   bool arm_ = false;
   bool override_ = true;
-  bool angle_mode_ = true;
   bool gesture_wanted_ = false;
   std::optional<Time> gesture_start_;
   std::array<float, 4> sticks_{};

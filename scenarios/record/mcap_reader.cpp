@@ -26,6 +26,24 @@ McapMetadata read_map(ByteCursor& cursor) {
   return values;
 }
 
+McapSchema read_schema(ByteCursor& cursor) {
+  McapSchema schema;
+  schema.name = cursor.text();
+  schema.encoding = cursor.text();
+  schema.text = cursor.text();
+  return schema;
+}
+
+McapChannel read_channel(ByteCursor& cursor) {
+  McapChannel channel;
+  channel.id = cursor.get<std::uint16_t>();
+  channel.schema = cursor.get<std::uint16_t>();
+  channel.topic = cursor.text();
+  channel.encoding = cursor.text();
+  channel.metadata = read_map(cursor);
+  return channel;
+}
+
 McapMessage read_message(ByteCursor& cursor) {
   McapMessage message;
   message.channel = cursor.get<std::uint16_t>();
@@ -90,20 +108,12 @@ bool McapReader::take(McapOpcode opcode, std::span<const std::uint8_t> content, 
       break;
     case McapOpcode::kSchema: {
       const auto id = cursor.get<std::uint16_t>();
-      McapSchema& schema = schemas_[id];
-      schema.name = cursor.text();
-      schema.encoding = cursor.text();
-      schema.text = cursor.text();
+      schemas_[id] = read_schema(cursor);
       break;
     }
     case McapOpcode::kChannel: {
-      const auto id = cursor.get<std::uint16_t>();
-      McapChannel& channel = channels_[id];
-      channel.id = id;
-      channel.schema = cursor.get<std::uint16_t>();
-      channel.topic = cursor.text();
-      channel.encoding = cursor.text();
-      channel.metadata = read_map(cursor);
+      const McapChannel channel = read_channel(cursor);
+      channels_[channel.id] = channel;
       break;
     }
     case McapOpcode::kMessage:

@@ -257,6 +257,21 @@ void McapWriter::close() {
   file_.close();
 }
 
+namespace {
+
+/// The last record and what follows it. @param begin  of the summary in `out`, which the checksum is about
+void put_footer(ByteBuffer& out, std::uint64_t summary_begin, std::uint64_t offsets_begin,
+                std::size_t begin) {
+  out.put(static_cast<std::uint8_t>(McapOpcode::kFooter));
+  out.put(std::uint64_t{8 + 8 + 4});
+  out.put(summary_begin);
+  out.put(offsets_begin);
+  out.put(crc32(out.bytes().subspan(begin)));
+  put_magic(out);
+}
+
+}  // namespace
+
 void McapWriter::write_summary() {
   ByteBuffer out;
   put_data_end(out, data_crc_);
@@ -291,12 +306,7 @@ void McapWriter::write_summary() {
 
   const std::uint64_t offsets_begin = base + out.size();
   out.append(offsets.bytes());
-  out.put(static_cast<std::uint8_t>(McapOpcode::kFooter));
-  out.put(std::uint64_t{8 + 8 + 4});
-  out.put(summary_begin);
-  out.put(offsets_begin);
-  out.put(crc32(out.bytes().subspan(begin)));
-  put_magic(out);
+  put_footer(out, summary_begin, offsets_begin, begin);
   file_.write(out.bytes());
 }
 

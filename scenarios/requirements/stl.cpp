@@ -29,15 +29,6 @@ void Eventually::sample(double time, double margin) {
   if (!best_ || margin > best_->margin) best_ = Robustness{margin, time};
 }
 
-void Until::sample(double time, double p, double q) {
-  if (!start_) start_ = time;
-  if (within(time - *start_, interval_)) {
-    const Robustness here = before_.margin < q ? before_ : Robustness{q, time};
-    if (!best_ || here.margin > best_->margin) best_ = here;
-  }
-  if (p < before_.margin) before_ = Robustness{p, time};
-}
-
 Recently::Recently(double span, double period) : span_(span) {
   if (!(span >= 0.0) || !(period > 0.0) || span / period > 1e7) {
     throw std::invalid_argument("window of " + std::to_string(span) + " s sampled every " +

@@ -53,22 +53,6 @@ class Eventually {
   std::optional<Robustness> best_;
 };
 
-/// "q holds at some sample of the interval, and p at every sample before that one".
-class Until {
- public:
-  explicit Until(Interval interval = {}) : interval_(interval) {}
-  /// @param p  margin of what must hold first
-  /// @param q  margin of what must come
-  void sample(double time, double p, double q);
-  std::optional<Robustness> robustness() const { return best_; }
-
- private:
-  Interval interval_;
-  std::optional<double> start_;
-  Robustness before_{std::numeric_limits<double>::infinity(), 0.0};
-  std::optional<Robustness> best_;
-};
-
 /// "p holds at some sample of the last `span` seconds", for every sample: the operator to put inside Always
 /// for "p is never violated for longer than `span` at a stretch". Greatest margin of a sliding window.
 class Recently {
@@ -97,15 +81,9 @@ class Recently {
   bool full_ = false;
 };
 
-/// Boolean operators on margins.
+/// Not p.
 inline double negation(double p) {
   return -p;
-}
-inline double conjunction(double p, double q) {
-  return p < q ? p : q;
-}
-inline double disjunction(double p, double q) {
-  return p > q ? p : q;
 }
 
 }  // namespace ironbird::scenarios::stl

@@ -81,59 +81,19 @@ class Mp4Sink final : public VideoSink {
   }
 
  private:
+  /// What is in the pipe, and what the file is made of.
   std::vector<std::string> arguments(const VideoFormat& format, const std::string& preset) const {
-    return {program_,
-            "-nostdin",
-            "-hide_banner",
-            "-loglevel",
-            "error",
-            "-y",
-            "-f",
-            "rawvideo",
-            "-pix_fmt",
-            "yuv420p",
-            "-s",
-            std::to_string(format.width) + "x" + std::to_string(format.height),
-            "-framerate",
-            std::to_string(format.frame_rate),
-            "-color_range",
-            "tv",
-            "-colorspace",
-            "bt709",
-            "-color_primaries",
-            "bt709",
-            "-color_trc",
-            "bt709",
-            "-i",
-            "pipe:0",
-            "-an",
-            "-c:v",
-            "libx264",
-            "-preset",
-            preset,
-            "-crf",
-            "21",
-            "-threads",
-            "1",
-            "-pix_fmt",
-            "yuv420p",
-            "-color_range",
-            "tv",
-            "-colorspace",
-            "bt709",
-            "-color_primaries",
-            "bt709",
-            "-color_trc",
-            "bt709",
-            "-fflags",
-            "+bitexact",
-            "-flags:v",
-            "+bitexact",
-            "-movflags",
-            "+faststart",
-            "-f",
-            "mp4",
-            part_.string()};
+    const std::string size = std::to_string(format.width) + "x" + std::to_string(format.height);
+    const std::string colours = " -color_range tv -colorspace bt709 -color_primaries bt709 -color_trc bt709";
+    std::istringstream line("-nostdin -hide_banner -loglevel error -y -f rawvideo -pix_fmt yuv420p -s " +
+                            size + " -framerate " + std::to_string(format.frame_rate) + colours +
+                            " -i pipe:0 -an -c:v libx264 -preset " + preset +
+                            " -crf 21 -threads 1 -pix_fmt yuv420p" + colours +
+                            " -fflags +bitexact -flags:v +bitexact -movflags +faststart -f mp4");
+    std::vector<std::string> words{program_};
+    for (std::string word; line >> word;) words.push_back(word);
+    words.push_back(part_.string());
+    return words;
   }
 
   void start(std::vector<std::string> words) {

@@ -24,14 +24,22 @@ struct AirParams {
 /// Density around one height, by its first three terms. Ten metres away the fourth is 1e-10 of the density,
 /// one metre away 1e-13.
 struct DensityProfile {
-  double height = 0.0;     ///< m, where the terms are taken
-  double density = 0.0;    ///< kg/m^3
-  double gradient = 0.0;   ///< kg/m^4
-  double curvature = 0.0;  ///< kg/m^5, second derivative
+  double height = 0.0;
+  double density = 0.0;
+  double gradient = 0.0;
+  double curvature = 0.0;
 
   double at(double other_height) const {
     const double d = other_height - height;
     return density + d * (gradient + 0.5 * d * curvature);
+  }
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("height", self.height, "m", "above the local origin, where the terms are taken");
+    visit("density", self.density, "kg/m^3", "there");
+    visit("gradient", self.gradient, "kg/m^4", "its slope upwards");
+    visit("curvature", self.curvature, "kg/m^5", "its second derivative");
   }
 };
 

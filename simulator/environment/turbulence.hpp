@@ -20,10 +20,18 @@ struct TurbulenceParams {
 
 /// Length scales and standard deviations of the Dryden model, along and across the wind and vertically.
 struct TurbulenceScale {
-  double length_horizontal = 0.0;  ///< m
-  double length_vertical = 0.0;    ///< m
-  double sigma_horizontal = 0.0;   ///< m/s
-  double sigma_vertical = 0.0;     ///< m/s
+  double length_horizontal = 0.0;
+  double length_vertical = 0.0;
+  double sigma_horizontal = 0.0;
+  double sigma_vertical = 0.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("length_horizontal", self.length_horizontal, "m", "length of the gusts along and across the wind");
+    visit("length_vertical", self.length_vertical, "m", "length of the vertical gusts");
+    visit("sigma_horizontal", self.sigma_horizontal, "m/s", "their strength along and across the wind");
+    visit("sigma_vertical", self.sigma_vertical, "m/s", "strength of the vertical gusts");
+  }
 };
 
 /// Low-altitude scales at `height` above the ground, m, clamped to 10..1000 ft. Source: MIL-F-8785C,

@@ -24,6 +24,55 @@ const char* name_of(FaultKind kind) {
   throw std::invalid_argument(message.str());
 }
 
+/// What an outage does to which sensor.
+struct Deafened {
+  Outage FaultState::*sensor = nullptr;
+  bool Outage::*how = nullptr;
+};
+
+Deafened deafened_by(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kImuDropout:
+      return {&FaultState::imu, &Outage::dropout};
+    case FaultKind::kMagDropout:
+      return {&FaultState::mag, &Outage::dropout};
+    case FaultKind::kBaroDropout:
+      return {&FaultState::baro, &Outage::dropout};
+    case FaultKind::kGnssDropout:
+      return {&FaultState::gnss, &Outage::dropout};
+    case FaultKind::kImuNonFinite:
+      return {&FaultState::imu, &Outage::non_finite};
+    case FaultKind::kMagNonFinite:
+      return {&FaultState::mag, &Outage::non_finite};
+    case FaultKind::kBaroNonFinite:
+      return {&FaultState::baro, &Outage::non_finite};
+    case FaultKind::kGnssNonFinite:
+      return {&FaultState::gnss, &Outage::non_finite};
+    default:
+      return {};
+  }
+}
+
+using FaultVector = Vector3 FaultState::*;
+
+/// The sum to which a fault with a direction adds.
+FaultVector vector_of(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kAccelerometerBias:
+      return &FaultState::accelerometer_bias;
+    case FaultKind::kGyroBias:
+      return &FaultState::gyro_bias;
+    case FaultKind::kMagBias:
+      return &FaultState::mag_bias;
+    case FaultKind::kGnssJump:
+      return &FaultState::gnss_jump_N;
+    case FaultKind::kWind:
+      return &FaultState::wind_N;
+    default:
+      return nullptr;
+  }
+}
+
 }  // namespace
 
 void check(const Fault& fault, int rotor_count) {
@@ -43,6 +92,14 @@ void check(const Fault& fault, int rotor_count) {
 }
 
 void add(const Fault& fault, FaultState& state) {
+  if (const Deafened deafened = deafened_by(fault.kind); deafened.sensor != nullptr) {
+    (state.*deafened.sensor).*deafened.how = true;
+    return;
+  }
+  if (const FaultVector vector = vector_of(fault.kind); vector != nullptr) {
+    state.*vector += fault.vector;
+    return;
+  }
   const std::size_t rotor = static_cast<std::size_t>(fault.index);
   switch (fault.kind) {
     case FaultKind::kRotorEfficiency:
@@ -53,52 +110,13 @@ void add(const Fault& fault, FaultState& state) {
       assert(rotor < state.rotor_efficiency.size());
       state.rotor_efficiency[rotor] = 0.0;
       return;
-    case FaultKind::kImuDropout:
-      state.imu.dropout = true;
-      return;
-    case FaultKind::kMagDropout:
-      state.mag.dropout = true;
-      return;
-    case FaultKind::kBaroDropout:
-      state.baro.dropout = true;
-      return;
-    case FaultKind::kGnssDropout:
-      state.gnss.dropout = true;
-      return;
-    case FaultKind::kImuNonFinite:
-      state.imu.non_finite = true;
-      return;
-    case FaultKind::kMagNonFinite:
-      state.mag.non_finite = true;
-      return;
-    case FaultKind::kBaroNonFinite:
-      state.baro.non_finite = true;
-      return;
-    case FaultKind::kGnssNonFinite:
-      state.gnss.non_finite = true;
-      return;
-    case FaultKind::kAccelerometerBias:
-      state.accelerometer_bias += fault.vector;
-      return;
-    case FaultKind::kGyroBias:
-      state.gyro_bias += fault.vector;
-      return;
-    case FaultKind::kMagBias:
-      state.mag_bias += fault.vector;
-      return;
     case FaultKind::kBaroBias:
       state.baro_bias += fault.magnitude;
       return;
-    case FaultKind::kGnssJump:
-      state.gnss_jump_N += fault.vector;
-      return;
-    case FaultKind::kBatteryCharge:
-      return;
-    case FaultKind::kWind:
-      state.wind_N += fault.vector;
-      return;
     case FaultKind::kPayload:
       state.payload += fault.magnitude;
+      return;
+    default:  // a battery's charge is an event
       return;
   }
 }

@@ -13,6 +13,12 @@ namespace ironbird::simulator {
 struct MassProperties {
   double mass = 1.0;
   Matrix3 J_Bcm_B = Matrix3::Identity();
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("mass", self.mass, "kg", "mass");
+    visit("J_Bcm_B", self.J_Bcm_B, "kg*m^2", "inertia about the centre of mass");
+  }
 };
 
 /// The vehicle's own states that change within a step, one speed per rotor, rad/s; unused ones stay zero.
@@ -20,8 +26,15 @@ using RotorSpeeds = Eigen::Array<double, kMaxRotors, 1>;
 
 /// What the vehicle answers in a stage of the integrator.
 struct Forces {
-  Wrench wrench;                                         ///< gravity not included
-  RotorSpeeds rotor_acceleration = RotorSpeeds::Zero();  ///< rad/s^2
+  Wrench wrench;
+  RotorSpeeds rotor_acceleration = RotorSpeeds::Zero();
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("wrench", self.wrench, "", "gravity not included");
+    visit("rotor_acceleration", self.rotor_acceleration, "rad/s^2",
+          "of each rotor; 0 for those that are not there");
+  }
 };
 
 /// The forces on the vehicle as a function of where it is. Asked once in every stage of the integrator: with

@@ -64,7 +64,8 @@ enum class SolidPart : std::uint8_t {
   kEverything = 3,
 };
 
-/// Solid things drawn into a part of a picture. Rows from the top of `rect`.
+/// Solid things drawn into a part of a picture. Rows from the top of `rect`. No `describe`: a picture is not
+/// logged as numbers.
 struct SolidPicture {
   PixelRect rect;
   int samples = 1;                  ///< per pixel and axis

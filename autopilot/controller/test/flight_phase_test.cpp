@@ -1,6 +1,13 @@
-#include "autopilot/controller/flight_phase.hpp"
+#include "autopilot/controller/phase_table.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
 
 #include "autopilot/controller/touch_down.hpp"
 
@@ -10,8 +17,11 @@ namespace {
 using enum FlightPhase;
 using enum PhaseCause;
 
-struct Row {
+constexpr std::string_view kNoRow = "";
+
+struct Case {
   const char* name;
+  std::string_view row;
   FlightPhase from;
   PhaseInputs in;
   FlightPhase to;
@@ -38,10 +48,15 @@ PhaseInputs everything_but_armed() {
           .on_ground = true};
 }
 
-class FlightPhaseTest : public ::testing::TestWithParam<Row> {};
+class FlightPhaseTest : public ::testing::TestWithParam<Case> {};
 
 TEST_P(FlightPhaseTest, GoesWhereTheTableSays) {
   EXPECT_EQ(next_phase(GetParam().from, GetParam().in), (PhaseStep{GetParam().to, GetParam().cause}));
+}
+
+TEST_P(FlightPhaseTest, IsDecidedByTheRowThatTheCaseNames) {
+  const PhaseRow* const row = deciding_row(GetParam().from, GetParam().in);
+  EXPECT_EQ(row == nullptr ? kNoRow : row->name, GetParam().row);
 }
 
 const auto kNothing = [](PhaseInputs&) {};
@@ -52,99 +67,163 @@ const auto no_position = [](PhaseInputs& i) {
 const auto no_estimate = [](PhaseInputs& i) { i.estimate_usable = false; };
 const auto rests = [](PhaseInputs& i) { i.rests_with_pilot = i.setpoint_valid = i.hold_over = true; };
 
-INSTANTIATE_TEST_SUITE_P(
-    Rows, FlightPhaseTest,
-    ::testing::Values(
-        Row{"DisarmedStays", kDisarmed, everything_but_armed(), kDisarmed},
-        Row{"TakeOffIsDisarmed", kTakeOff, everything_but_armed(), kDisarmed},
-        Row{"HoldIsDisarmed", kHold, everything_but_armed(), kDisarmed},
-        Row{"OffboardIsDisarmed", kOffboard, everything_but_armed(), kDisarmed},
-        Row{"LandingIsDisarmed", kLanding, everything_but_armed(), kDisarmed},
-        Row{"ArmedWaitsForARequest", kDisarmed, armed([](PhaseInputs& i) { i.setpoint_valid = true; }),
-            kDisarmed},
-        Row{"ArmedTakesOff", kDisarmed, armed([](PhaseInputs& i) { i.take_off_wanted = true; }), kTakeOff},
-        Row{"NoTakeOffWithoutAnEstimate", kDisarmed, armed([](PhaseInputs& i) {
-              i.take_off_wanted = true;
-              i.estimate_usable = false;
-            }),
-            kDisarmed},
-        Row{"NoLandingOnTheGround", kDisarmed, armed([](PhaseInputs& i) { i.landing_wanted = true; }),
-            kDisarmed},
-        Row{"Climbs", kTakeOff, armed(kNothing), kTakeOff},
-        Row{"HasClimbed", kTakeOff, armed([](PhaseInputs& i) { i.height_reached = true; }), kHold},
-        Row{"LandsFromTheClimb", kTakeOff,
-            armed([](PhaseInputs& i) { i.landing_wanted = i.height_reached = true; }), kLanding},
-        Row{"Holds", kHold, armed([](PhaseInputs& i) { i.setpoint_valid = true; }), kHold},
-        Row{"HoldsWithNothingToFly", kHold, armed([](PhaseInputs& i) { i.hold_over = true; }), kHold},
-        Row{"FliesAfterTheHold", kHold, armed([](PhaseInputs& i) { i.hold_over = i.setpoint_valid = true; }),
-            kOffboard},
-        Row{"LandsFromTheHold", kHold,
-            armed([](PhaseInputs& i) { i.landing_wanted = i.hold_over = i.setpoint_valid = true; }),
-            kLanding},
-        Row{"IgnoresALandingOfTheRouteInTheHold", kHold, armed([](PhaseInputs& i) { i.route_lands = true; }),
-            kHold},
-        Row{"FliesOn", kOffboard, armed([](PhaseInputs& i) { i.setpoint_valid = true; }), kOffboard},
-        Row{"HoldsWhenTheSetpointIsGone", kOffboard, armed(kNothing), kHold},
-        Row{"LandsByRequest", kOffboard, armed([](PhaseInputs& i) { i.landing_wanted = true; }), kLanding},
-        Row{"LandsByRoute", kOffboard, armed([](PhaseInputs& i) { i.route_lands = i.setpoint_valid = true; }),
-            kLanding},
-        Row{"IgnoresAStaleLandingOfTheRoute", kOffboard, armed([](PhaseInputs& i) { i.route_lands = true; }),
-            kHold},
-        Row{"Descends", kLanding, armed([](PhaseInputs& i) { i.setpoint_valid = i.hold_over = true; }),
-            kLanding},
-        Row{"StaysDown", kLanding, armed([](PhaseInputs& i) { i.on_ground = i.setpoint_valid = true; }),
-            kLanding},
-        Row{"TakesOffAgainFromTheGround", kLanding,
-            armed([](PhaseInputs& i) { i.on_ground = i.take_off_wanted = true; }), kTakeOff},
-        Row{"DoesNotTakeOffWhileDescending", kLanding,
-            armed([](PhaseInputs& i) { i.take_off_wanted = true; }), kLanding},
-        Row{"NoTakeOffWithoutAPosition", kDisarmed, armed([](PhaseInputs& i) {
-              i.take_off_wanted = true;
-              i.position_known = false;
-            }),
-            kDisarmed},
-        Row{"ClimbEndsWithoutAPosition", kTakeOff, armed(no_position), kLevelDescent, kPositionUnknown},
-        Row{"HoldEndsWithoutAPosition", kHold, armed(no_position), kLevelDescent, kPositionUnknown},
-        Row{"OffboardEndsWithoutAPosition", kOffboard, armed(no_position), kLevelDescent, kPositionUnknown},
-        Row{"LandingGoesOnLevelWithoutAPosition", kLanding, armed(no_position), kLevelDescent,
-            kPositionUnknown},
-        Row{"SinksLevel", kLevelDescent, armed(no_position), kLevelDescent},
-        Row{"LandsWhenThePositionIsBack", kLevelDescent,
-            armed([](PhaseInputs& i) { i.setpoint_valid = i.hold_over = true; }), kLanding, kPositionKnown},
-        Row{"HoldsByRequestWhenThePositionIsBack", kLevelDescent,
-            armed([](PhaseInputs& i) { i.resume_wanted = true; }), kHold, kPositionKnown},
-        Row{"ClimbFallsSilent", kTakeOff, armed(no_estimate), kSilent, kEstimateLost},
-        Row{"HoldFallsSilent", kHold, armed(no_estimate), kSilent, kEstimateLost},
-        Row{"OffboardFallsSilent", kOffboard, armed(no_estimate), kSilent, kEstimateLost},
-        Row{"LandingFallsSilent", kLanding, armed(no_estimate), kSilent, kEstimateLost},
-        Row{"LevelDescentFallsSilent", kLevelDescent, armed(no_estimate), kSilent, kEstimateLost},
-        Row{"OnTheGroundItNeedsNoEstimate", kLanding, armed([](PhaseInputs& i) {
-              i.estimate_usable = false;
-              i.on_ground = true;
-            }),
-            kLanding},
-        Row{"StaysSilent", kSilent,
-            armed([](PhaseInputs& i) { i.setpoint_valid = i.hold_over = i.take_off_wanted = true; }),
-            kSilent},
-        Row{"LandsAfterAShortSilence", kSilent, armed([](PhaseInputs& i) { i.silence_short = true; }),
-            kLanding, kEstimateBack},
-        Row{"SinksLevelAfterAShortSilence", kSilent, armed([](PhaseInputs& i) {
-              i.silence_short = true;
-              i.position_known = false;
-            }),
-            kLevelDescent, kEstimateBack},
-        Row{"LandsAfterALongSilenceByRequest", kSilent,
-            armed([](PhaseInputs& i) { i.landing_wanted = true; }), kLanding, kEstimateBack},
-        Row{"HoldsAfterALongSilenceByRequest", kSilent, armed([](PhaseInputs& i) { i.resume_wanted = true; }),
-            kHold},
-        Row{"EndsALandingByRequest", kLanding, armed([](PhaseInputs& i) { i.resume_wanted = true; }), kHold},
-        Row{"ClimbEndsAtRest", kTakeOff, armed(rests), kDisarmed, kRestsWithPilot},
-        Row{"HoldEndsAtRest", kHold, armed(rests), kDisarmed, kRestsWithPilot},
-        Row{"OffboardEndsAtRest", kOffboard, armed(rests), kDisarmed, kRestsWithPilot},
-        Row{"LandingEndsAtRest", kLanding, armed(rests), kDisarmed, kRestsWithPilot},
-        Row{"LevelDescentEndsAtRest", kLevelDescent, armed(rests), kDisarmed, kRestsWithPilot},
-        Row{"SilenceEndsAtRest", kSilent, armed(rests), kDisarmed, kRestsWithPilot}),
-    [](const auto& case_) { return case_.param.name; });
+const auto kCases = std::to_array<Case>(
+    {Case{"DisarmedStays", "disarms", kDisarmed, everything_but_armed(), kDisarmed},
+     Case{"TakeOffIsDisarmed", "disarms", kTakeOff, everything_but_armed(), kDisarmed},
+     Case{"HoldIsDisarmed", "disarms", kHold, everything_but_armed(), kDisarmed},
+     Case{"OffboardIsDisarmed", "disarms", kOffboard, everything_but_armed(), kDisarmed},
+     Case{"LandingIsDisarmed", "disarms", kLanding, everything_but_armed(), kDisarmed},
+     Case{"ArmedWaitsForARequest", kNoRow, kDisarmed, armed([](PhaseInputs& i) { i.setpoint_valid = true; }),
+          kDisarmed},
+     Case{"ArmedTakesOff", "takes off", kDisarmed, armed([](PhaseInputs& i) { i.take_off_wanted = true; }),
+          kTakeOff},
+     Case{"NoTakeOffWithoutAnEstimate", kNoRow, kDisarmed, armed([](PhaseInputs& i) {
+            i.take_off_wanted = true;
+            i.estimate_usable = false;
+          }),
+          kDisarmed},
+     Case{"NoLandingOnTheGround", kNoRow, kDisarmed, armed([](PhaseInputs& i) { i.landing_wanted = true; }),
+          kDisarmed},
+     Case{"Climbs", kNoRow, kTakeOff, armed(kNothing), kTakeOff},
+     Case{"HasClimbed", "has climbed", kTakeOff, armed([](PhaseInputs& i) { i.height_reached = true; }),
+          kHold},
+     Case{"LandsFromTheClimb", "lands from climb", kTakeOff,
+          armed([](PhaseInputs& i) { i.landing_wanted = i.height_reached = true; }), kLanding},
+     Case{"Holds", kNoRow, kHold, armed([](PhaseInputs& i) { i.setpoint_valid = true; }), kHold},
+     Case{"HoldsWithNothingToFly", kNoRow, kHold, armed([](PhaseInputs& i) { i.hold_over = true; }), kHold},
+     Case{"FliesAfterTheHold", "flies", kHold,
+          armed([](PhaseInputs& i) { i.hold_over = i.setpoint_valid = true; }), kOffboard},
+     Case{"LandsFromTheHold", "lands from hold", kHold,
+          armed([](PhaseInputs& i) { i.landing_wanted = i.hold_over = i.setpoint_valid = true; }), kLanding},
+     Case{"IgnoresALandingOfTheRouteInTheHold", kNoRow, kHold,
+          armed([](PhaseInputs& i) { i.route_lands = true; }), kHold},
+     Case{"FliesOn", kNoRow, kOffboard, armed([](PhaseInputs& i) { i.setpoint_valid = true; }), kOffboard},
+     Case{"HoldsWhenTheSetpointIsGone", "holds", kOffboard, armed(kNothing), kHold},
+     Case{"LandsByRequest", "lands from route", kOffboard,
+          armed([](PhaseInputs& i) { i.landing_wanted = true; }), kLanding},
+     Case{"LandsByRoute", "lands from route", kOffboard,
+          armed([](PhaseInputs& i) { i.route_lands = i.setpoint_valid = true; }), kLanding},
+     Case{"IgnoresAStaleLandingOfTheRoute", "holds", kOffboard,
+          armed([](PhaseInputs& i) { i.route_lands = true; }), kHold},
+     Case{"Descends", kNoRow, kLanding, armed([](PhaseInputs& i) { i.setpoint_valid = i.hold_over = true; }),
+          kLanding},
+     Case{"StaysDown", "stays down", kLanding,
+          armed([](PhaseInputs& i) { i.on_ground = i.setpoint_valid = true; }), kLanding},
+     Case{"TakesOffAgainFromTheGround", "takes off again", kLanding,
+          armed([](PhaseInputs& i) { i.on_ground = i.take_off_wanted = true; }), kTakeOff},
+     Case{"DoesNotTakeOffWhileDescending", kNoRow, kLanding,
+          armed([](PhaseInputs& i) { i.take_off_wanted = true; }), kLanding},
+     Case{"NoTakeOffWithoutAPosition", kNoRow, kDisarmed, armed([](PhaseInputs& i) {
+            i.take_off_wanted = true;
+            i.position_known = false;
+          }),
+          kDisarmed},
+     Case{"ClimbEndsWithoutAPosition", "loses position", kTakeOff, armed(no_position), kLevelDescent,
+          kPositionUnknown},
+     Case{"HoldEndsWithoutAPosition", "loses position", kHold, armed(no_position), kLevelDescent,
+          kPositionUnknown},
+     Case{"OffboardEndsWithoutAPosition", "loses position", kOffboard, armed(no_position), kLevelDescent,
+          kPositionUnknown},
+     Case{"LandingGoesOnLevelWithoutAPosition", "loses position", kLanding, armed(no_position), kLevelDescent,
+          kPositionUnknown},
+     Case{"SinksLevel", kNoRow, kLevelDescent, armed(no_position), kLevelDescent},
+     Case{"LandsWhenThePositionIsBack", "lands with position", kLevelDescent,
+          armed([](PhaseInputs& i) { i.setpoint_valid = i.hold_over = true; }), kLanding, kPositionKnown},
+     Case{"HoldsByRequestWhenThePositionIsBack", "resumes with position", kLevelDescent,
+          armed([](PhaseInputs& i) { i.resume_wanted = true; }), kHold, kPositionKnown},
+     Case{"ClimbFallsSilent", "falls silent", kTakeOff, armed(no_estimate), kSilent, kEstimateLost},
+     Case{"HoldFallsSilent", "falls silent", kHold, armed(no_estimate), kSilent, kEstimateLost},
+     Case{"OffboardFallsSilent", "falls silent", kOffboard, armed(no_estimate), kSilent, kEstimateLost},
+     Case{"LandingFallsSilent", "falls silent", kLanding, armed(no_estimate), kSilent, kEstimateLost},
+     Case{"LevelDescentFallsSilent", "falls silent", kLevelDescent, armed(no_estimate), kSilent,
+          kEstimateLost},
+     Case{"OnTheGroundItNeedsNoEstimate", "stays down", kLanding, armed([](PhaseInputs& i) {
+            i.estimate_usable = false;
+            i.on_ground = true;
+          }),
+          kLanding},
+     Case{"StaysSilent", kNoRow, kSilent,
+          armed([](PhaseInputs& i) { i.setpoint_valid = i.hold_over = i.take_off_wanted = true; }), kSilent},
+     Case{"LandsAfterAShortSilence", "lands after silence", kSilent,
+          armed([](PhaseInputs& i) { i.silence_short = true; }), kLanding, kEstimateBack},
+     Case{"SinksLevelAfterAShortSilence", "sinks after silence", kSilent, armed([](PhaseInputs& i) {
+            i.silence_short = true;
+            i.position_known = false;
+          }),
+          kLevelDescent, kEstimateBack},
+     Case{"LandsAfterALongSilenceByRequest", "lands after silence", kSilent,
+          armed([](PhaseInputs& i) { i.landing_wanted = true; }), kLanding, kEstimateBack},
+     Case{"HoldsAfterALongSilenceByRequest", "resumes after silence", kSilent,
+          armed([](PhaseInputs& i) { i.resume_wanted = true; }), kHold},
+     Case{"EndsALandingByRequest", "resumes", kLanding, armed([](PhaseInputs& i) { i.resume_wanted = true; }),
+          kHold},
+     Case{"ClimbEndsAtRest", "rests", kTakeOff, armed(rests), kDisarmed, kRestsWithPilot},
+     Case{"HoldEndsAtRest", "rests", kHold, armed(rests), kDisarmed, kRestsWithPilot},
+     Case{"OffboardEndsAtRest", "rests", kOffboard, armed(rests), kDisarmed, kRestsWithPilot},
+     Case{"LandingEndsAtRest", "rests", kLanding, armed(rests), kDisarmed, kRestsWithPilot},
+     Case{"LevelDescentEndsAtRest", "rests", kLevelDescent, armed(rests), kDisarmed, kRestsWithPilot},
+     Case{"SilenceEndsAtRest", "rests", kSilent, armed(rests), kDisarmed, kRestsWithPilot},
+     Case{"LevelDescentIsDisarmed", "disarms", kLevelDescent, everything_but_armed(), kDisarmed},
+     Case{"SilentIsDisarmed", "disarms", kSilent, everything_but_armed(), kDisarmed},
+     Case{"StaysDownAfterALevelDescent", "stays down", kLevelDescent,
+          armed([](PhaseInputs& i) { i.on_ground = i.setpoint_valid = true; }), kLevelDescent},
+     Case{"TakesOffAgainAfterALevelDescent", "takes off again", kLevelDescent,
+          armed([](PhaseInputs& i) { i.on_ground = i.take_off_wanted = true; }), kTakeOff}});
+
+INSTANTIATE_TEST_SUITE_P(Rows, FlightPhaseTest, ::testing::ValuesIn(kCases),
+                         [](const auto& case_) { return case_.param.name; });
+
+TEST(PhaseTableTest, HasACaseForEachRowFromEachPhaseThatTheRowStartsIn) {
+  for (const PhaseRow& row : phase_table::kRows) {
+    for (const auto& [phase, name] : enumerators(FlightPhase{})) {
+      if (!row.from.contains(phase)) continue;
+      EXPECT_TRUE(
+          std::ranges::any_of(kCases, [&](const Case& c) { return c.from == phase && c.row == row.name; }))
+          << row.name << " from " << name;
+    }
+  }
+}
+
+TEST(PhaseTableTest, NamesEachRowOnce) {
+  std::set<std::string_view> names;
+  for (const PhaseRow& row : phase_table::kRows) EXPECT_TRUE(names.insert(row.name).second) << row.name;
+}
+
+template <class Enum>
+std::string_view word(Enum value) {
+  for (const auto& [candidate, name] : enumerators(value)) {
+    if (candidate == value) return name;
+  }
+  return "?";
+}
+
+std::string words(PhaseSet phases) {
+  if (phases == phase_table::kAny) return "any";
+  if (phases == phase_table::kAnyButDisarmed) return "any but disarmed";
+  std::string all;
+  for (const auto& [phase, name] : enumerators(FlightPhase{})) {
+    if (phases.contains(phase)) all += (all.empty() ? "" : ", ") + std::string(name);
+  }
+  return all;
+}
+
+/// The table as the document shows it.
+std::string markdown() {
+  std::ostringstream out;
+  out << "| row | from | to | when | cause |\n|---|---|---|---|---|\n";
+  for (const PhaseRow& row : phase_table::kRows) {
+    out << "| " << row.name << " | " << words(row.from) << " | " << (row.to ? word(*row.to) : "the same")
+        << " | " << row.when << " | " << word(row.cause) << " |\n";
+  }
+  return out.str();
+}
+
+TEST(PhaseTableTest, IsTheTableOfTheDocument) {
+  std::ifstream file(IRONBIRD_SOURCE_DIR "/docs/equations_control.md");
+  const std::string document{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(document.find("\n\n" + markdown() + "\n"), std::string::npos) << "the table is now\n"
+                                                                          << markdown();
+}
 
 TEST(TouchDownTest, IsFeltWhenNothingMovesUnderLittleLiftForAWhile) {
   TouchDown touch_down;

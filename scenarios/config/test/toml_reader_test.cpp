@@ -8,7 +8,6 @@
 
 #include "autopilot/types/mission.hpp"
 #include "autopilot/types/time.hpp"
-#include "scenarios/config/effective.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -275,52 +274,6 @@ TEST(ApplyTest, SaysThatTheCommandLineIsWrong) {
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(), "--set gains.pul=3: gains.pul = 3: unknown key, did you mean 'pull'?");
   }
-}
-
-TEST(EffectiveTest, WritesUnitsAndMeaningsAsComments) {
-  Gains gains;
-  gains.limit = 3.5;
-  EXPECT_EQ(effective(gains),
-            "pull = 0.5  # 1/s; how hard\n"
-            "order = 2  # of the filter\n"
-            "limit = 3.5  # m/s; of the speed\n");
-}
-
-TEST(EffectiveTest, IsReadBackToTheSameConfiguration) {
-  Config config = read(
-      "title = \"a \\\"b\\\" \\\\ \\u0001\"\nperiod = 0.123456789\nkinds = ['land']\n"
-      "seed = 9007199254740993\nlevel = 0.1\nturn = [0.1, 1e-300, 3]\n[spare]\nlimit = 0.3\n");
-  config.names = {"x", "y\nz"};
-  const Config again = read(effective(config));
-  EXPECT_EQ(effective(again), effective(config));
-  EXPECT_EQ(again.title, config.title);
-  EXPECT_EQ(again.period, config.period);
-  EXPECT_EQ(again.level, config.level);
-  EXPECT_EQ(again.turn, config.turn);
-  EXPECT_EQ(again.spare->limit, config.spare->limit);
-}
-
-TEST(EffectiveTest, NestsArraysOfTables) {
-  Route route;
-  route.waypoints.resize(2);
-  route.waypoints[1].geodetic.emplace().altitude = 50.0;
-  Route again;
-  read_toml(parse_toml(effective(route), "effective.toml"), again);
-  ASSERT_EQ(again.waypoints.size(), 2u);
-  EXPECT_FALSE(again.waypoints[0].geodetic.has_value());
-  EXPECT_EQ(again.waypoints[1].geodetic->altitude, 50.0);
-  Route empty;
-  read_toml(parse_toml(effective(Route{}), "effective.toml"), empty);
-  EXPECT_TRUE(empty.waypoints.empty());
-}
-
-TEST(ConfigDigestTest, ChangesWithAnyValueOnly) {
-  Config config;
-  const std::string before = config_digest(config);
-  EXPECT_EQ(before.size(), 64u);
-  EXPECT_EQ(config_digest(read("# only a comment\ntitle = 'none'\n")), before);
-  config.gains.pull = std::nextafter(config.gains.pull, 1.0);
-  EXPECT_NE(config_digest(config), before);
 }
 
 }  // namespace

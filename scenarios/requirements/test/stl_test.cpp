@@ -18,7 +18,6 @@ constexpr double kEdge = 1e-9;  // s: the round-off that intervals allow
 struct Samples {
   std::vector<double> time;
   std::vector<double> p;
-  std::vector<double> q;
 };
 
 /// Random margins at a steady rate that does not divide the intervals evenly.
@@ -29,7 +28,6 @@ Samples random_samples(std::uint64_t seed) {
   for (int i = 0; i < count; ++i) {
     out.time.push_back(3.0 + i * 0.07);
     out.p.push_back(stream.normal());
-    out.q.push_back(stream.normal());
   }
   return out;
 }
@@ -74,26 +72,6 @@ TEST_P(RandomSignalTest, EventuallyIsTheDualOfAlways) {
   if (!eventually.robustness()) return;
   EXPECT_EQ(eventually.robustness()->margin, -never.robustness()->margin);
   EXPECT_EQ(eventually.robustness()->time, never.robustness()->time);
-}
-
-TEST_P(RandomSignalTest, UntilAgreesWithItsDefinition) {
-  const Samples s = random_samples(GetParam());
-  const Interval interval = random_interval(GetParam());
-  Until until(interval);
-  double expected = -kInfinity;
-  bool any = false;
-  for (std::size_t i = 0; i < s.time.size(); ++i) {
-    until.sample(s.time[i], s.p[i], s.q[i]);
-    if (!inside(s.time[i] - s.time[0], interval)) continue;
-    double margin = s.q[i];
-    for (std::size_t j = 0; j < i; ++j) margin = conjunction(margin, s.p[j]);
-    expected = disjunction(expected, margin);
-    any = true;
-  }
-  ASSERT_EQ(until.robustness().has_value(), any);
-  if (any) {
-    EXPECT_EQ(until.robustness()->margin, expected);
-  }
 }
 
 TEST_P(RandomSignalTest, RecentlyIsTheGreatestMarginOfTheSpan) {
@@ -145,12 +123,6 @@ TEST(AlwaysTest, CountsBothEndsOfItsInterval) {
   for (int i = 0; i <= 30; ++i)
     always.sample(5.0 + i * 0.1, i == 10 ? -1.0 : i == 20 ? -2.0 : i == 21 ? -9.0 : 1.0);
   EXPECT_EQ(always.robustness()->margin, -2.0);
-}
-
-TEST(UntilTest, DoesNotAskForPWhenQHolds) {
-  Until until;
-  until.sample(0.0, /*p=*/-5.0, /*q=*/1.0);
-  EXPECT_EQ(until.robustness()->margin, 1.0);
 }
 
 TEST(RecentlyTest, RefusesAWindowItCannotHold) {

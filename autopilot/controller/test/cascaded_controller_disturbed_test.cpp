@@ -1,0 +1,186 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "autopilot/controller/test/cascaded_controller_flight.hpp"
+
+namespace ironbird::autopilot {
+namespace {
+
+using enum FlightPhase;
+
+TEST_F(CascadedControllerTest, DoesNotWindUpWhileThePilotFlies) {
+  fly_offboard();
+  estimate_.w_NB_B.x() = 0.1;  // in the air nothing lies quite still
+  const ControlSetpoint climbing = VelocityHeadingRate{Vector3(0.0, 0.0, -1.0), 0.0};
+  const double at_first = std::get<PassThroughCommand>(run(climbing)).thrust;
+  status_.rc_override = 1;
+  run_for(20.0, climbing);
+  EXPECT_NEAR(std::get<PassThroughCommand>(run(climbing)).thrust, at_first, 3.9 * 1.0 * 0.01)
+      << "no more than one step of the integral";
+  status_.rc_override = 0;
+  status_.failsafe = true;
+  run_for(20.0, climbing);
+  EXPECT_NEAR(std::get<PassThroughCommand>(run(climbing)).thrust, at_first, 3.9 * 1.0 * 0.01);
+}
+
+TEST_F(CascadedControllerTest, HoldsWhereThePilotLeftTheVehicle) {
+  ask(FlightWish::kTakeOff);
+  run();
+  estimate_.p_NB_N.z() = -2.0;
+  run(NoSetpoint{});
+  ASSERT_EQ(controller_.phase(), kHold);
+  status_.rc_override = 1;
+  estimate_.p_NB_N << 30.0, -20.0, -9.0;
+  run_for(1.0, NoSetpoint{});
+  status_.rc_override = 0;
+  const auto command = std::get<PassThroughCommand>(run(NoSetpoint{}));
+  EXPECT_NEAR(command.thrust, 3.9 * 9.81, 1e-9);
+  EXPECT_LT(command.M_B.norm(), 1e-9);
+}
+
+TEST_F(CascadedControllerTest, ClimbsOnWhereThePilotLeftTheVehicle) {
+  ask(FlightWish::kTakeOff);
+  run();
+  // GIVEN a pilot who takes the vehicle 30 m aside in the middle of the climb
+  estimate_.p_NB_N.z() = -1.0;
+  status_.rc_override = 1;
+  run();
+  estimate_.p_NB_N << 33.0, 4.0, -1.0;
+  run_for(0.1);
+  // WHEN the pilot hands over THEN it climbs level, there
+  status_.rc_override = 0;
+  const auto climb = std::get<PassThroughCommand>(run());
+  ASSERT_EQ(controller_.phase(), kTakeOff);
+  EXPECT_LT(climb.M_B.norm(), 1e-6);
+}
+
+TEST_F(CascadedControllerTest, DoesNotTakeASlowDescentForTheGround) {
+  // GIVEN a slow descent of a vehicle that weighs less than thought, so that little lift is asked for
+  set([](CascadedControllerParams& p) { p.landing_speed = 0.2; });
+  fly_offboard();
+  ask(FlightWish::kLand);
+  run();
+  // WHEN it sinks at more than half of what it was told, though slower than `touch_down_speed`
+  estimate_.v_NB_B.z() = 0.12;
+  run_for(10.0);
+  // THEN the motors go on
+  EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, 0.0);
+}
+
+TEST_F(CascadedControllerTest, SaysNothingOnAnEstimateThatIsLostAndLandsWhenItIsSoonBack) {
+  fly_offboard();
+  estimate_.health = Health::kLost;
+  EXPECT_TRUE(is_silent());
+  EXPECT_EQ(controller_.phase(), kSilent);
+  EXPECT_EQ(controller_.cause(), PhaseCause::kEstimateLost);
+  estimate_.health = Health::kGood;
+  EXPECT_FALSE(is_silent());
+  EXPECT_EQ(controller_.phase(), kLanding) << "not back to the mission by itself";
+}
+
+TEST_F(CascadedControllerTest, StaysSilentAfterALongLossUntilAskedToFlyOn) {
+  fly_offboard();
+  estimate_.health = Health::kLost;
+  run_for(controller_.params().silence_patience + 0.1);
+  EXPECT_NE(refusal(FlightWish::kResume), "");
+  estimate_.health = Health::kGood;
+  for (int i = 0; i < 4000; ++i) ASSERT_TRUE(is_silent());
+  ask(FlightWish::kResume);
+  EXPECT_FALSE(is_silent());
+  EXPECT_EQ(controller_.phase(), kHold);
+}
+
+TEST_F(CascadedControllerTest, NeverSendsAValueThatIsNotFinite) {
+  fly_offboard();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  run(AngleHeadingRateThrust{nan, 0.0, 0.0, 38.0});
+  EXPECT_EQ(controller_.phase(), kHold) << "taken as no setpoint";
+  run_for(1.1);
+  StateEstimate good = estimate_;
+  for (double* value :
+       {&estimate_.roll, &estimate_.p_NB_N.x(), &estimate_.v_NB_B.y(), &estimate_.w_NB_B.z()}) {
+    *value = nan;
+    EXPECT_TRUE(is_silent());
+    good.stamp = estimate_.stamp;
+    estimate_ = good;
+    const auto command = std::get<PassThroughCommand>(run());
+    EXPECT_TRUE(command.M_B.allFinite() && std::isfinite(command.thrust));
+  }
+}
+
+TEST_F(CascadedControllerTest, SurvivesAGapOfTheEstimateWithoutAKick) {
+  fly_offboard();
+  const ControlSetpoint still = VelocityHeadingRate{};
+  run_for(0.5, still);
+  estimate_.stamp += std::chrono::seconds(5);
+  const auto command = std::get<PassThroughCommand>(run(still));
+  EXPECT_NEAR(command.thrust, 3.9 * 9.81, 0.1);
+}
+
+TEST_F(CascadedControllerTest, TakesOffAgainAfterALandingByRequest) {
+  fly_offboard();
+  ask(FlightWish::kLand);
+  run_for(2.0);
+  ASSERT_EQ(std::get<PassThroughCommand>(run()).thrust, 0.0);
+  ask(FlightWish::kTakeOff);
+  run();
+  EXPECT_EQ(controller_.phase(), kTakeOff);
+}
+
+/// What the autopilot would hand to a successor.
+Signals left_by(const Controller& controller, const StateEstimate& estimate) {
+  Signals signals;
+  signals.estimate = estimate;
+  signals.flight.phase = controller.phase();
+  signals.flight.cause = controller.cause();
+  signals.flight.memory = controller.memory();
+  return signals;
+}
+
+TEST_F(CascadedControllerTest, TakesOverThePhaseOfItsPredecessor) {
+  Signals signals;
+  signals.flight.phase = kOffboard;
+  controller_.take_over(signals);
+  EXPECT_NEAR(std::get<PassThroughCommand>(run()).thrust, 38.0, 1e-9);
+  EXPECT_EQ(controller_.phase(), kOffboard);
+}
+
+TEST_F(CascadedControllerTest, GoesOnWithTheClimbOfItsPredecessor) {
+  // GIVEN a climb that began at 10 m and has come to 11.4 m
+  estimate_.p_NB_N << 3.0, 4.0, -10.0;
+  ask(FlightWish::kTakeOff);
+  run();
+  estimate_.p_NB_N << 3.2, 4.0, -11.4;
+  run();
+  CascadedController successor;
+  successor.take_over(left_by(controller_, estimate_));
+  const auto step = [&] {
+    estimate_.stamp += std::chrono::microseconds(2500);
+    return successor.run(kSomething, false, estimate_, status_);
+  };
+  step();
+  EXPECT_EQ(successor.phase(), kTakeOff);
+  EXPECT_EQ(successor.memory().point_N.x(), 3.0) << "over the place where it began";
+  // WHEN it has come within half a metre of 2 m above the beginning THEN it holds, not 2 m further up
+  estimate_.p_NB_N.z() = -11.6;
+  step();
+  EXPECT_EQ(successor.phase(), kHold);
+  EXPECT_EQ(successor.memory().point_N.z(), -12.0);
+}
+
+TEST_F(CascadedControllerTest, KeepsTheMotorsStillOnTheGroundAfterItsPredecessorsLanding) {
+  fly_offboard();
+  ask(FlightWish::kLand);
+  run_for(2.0);
+  ASSERT_EQ(std::get<PassThroughCommand>(run()).thrust, 0.0);
+  CascadedController successor;
+  successor.take_over(left_by(controller_, estimate_));
+  estimate_.stamp += std::chrono::microseconds(2500);
+  EXPECT_EQ(std::get<PassThroughCommand>(successor.run(kSomething, false, estimate_, status_)).thrust, 0.0);
+  EXPECT_EQ(successor.memory().launch_N, Vector3(3.0, 4.0, 0.0));
+}
+
+}  // namespace
+}  // namespace ironbird::autopilot
