@@ -200,7 +200,8 @@ void Bench::publish_events(Time now) {
     // A picture's name or a text of the FCU is no event of the flight.
     if (event.kind != "snapshot" && event.kind != "fcu") script_.happened(event.text, now);
     script_.happened(event.kind + ":" + event.text, now);
-    if (scenario_.pilot.automatic && event.text == "landed" && event.kind == "ground") {
+    const bool is_down = event.kind == "ground" && (event.text == "landed" || event.text == "crashed");
+    if (scenario_.pilot.automatic && is_down) {
       schedule("", to_seconds(now) + kDisarmDelay, {Deed::Kind::kDisarm, 0});
     }
     if (recorder_) recorder_->write_once("/bench/event", event, now);

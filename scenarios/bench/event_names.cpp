@@ -50,6 +50,7 @@ void EventNames::add_flight(const Scenario& scenario) {
     names_.push_back({"health", std::string(name)});
   names_.push_back({"ground", "landed"});
   names_.push_back({"ground", "lifted_off"});
+  names_.push_back({"ground", "crashed"});
   if (!somebody_arms(scenario)) return;
   names_.push_back({"arming", "armed"});
   names_.push_back({"arming", "unarmed"});

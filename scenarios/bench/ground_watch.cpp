@@ -1,5 +1,8 @@
 #include "scenarios/bench/ground_watch.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace ironbird::scenarios {
 
 namespace {
@@ -10,6 +13,14 @@ constexpr simulator::Time kFlight{300'000'000};
 // A landing gear that chatters on the ground has not left it.
 constexpr simulator::Time kChatter{50'000'000};
 constexpr simulator::Time kNever{-1};
+// What a landing gear takes, estimated: a drop from 0.3 m.
+constexpr double kHardestLanding = 2.5;  // m/s
+constexpr double kLeastUpright = 0.707;  // cosine of the greatest tilt at rest, 45 deg
+
+/// Cosine of the angle between Bz and Nz.
+double uprightness(const simulator::Truth& truth) {
+  return 1.0 - 2.0 * (truth.q_NB.x() * truth.q_NB.x() + truth.q_NB.y() * truth.q_NB.y());
+}
 
 }  // namespace
 
@@ -17,15 +28,20 @@ std::optional<std::string_view> GroundWatch::observe(const simulator::Truth& tru
   if (truth.in_contact) {
     free_since_ = kNever;
     if (contact_since_ == kNever) contact_since_ = truth.stamp;
+    hardest_ = std::max(hardest_, std::exchange(sink_, 0.0));
     if (airborne_ && truth.stamp - contact_since_ >= kRest) {
       airborne_ = false;
-      return "landed";
+      const bool safe =
+          std::exchange(hardest_, 0.0) <= kHardestLanding && uprightness(truth) >= kLeastUpright;
+      return safe ? "landed" : "crashed";
     }
   } else {
+    sink_ = truth.v_NB_N.z();
     if (free_since_ == kNever) free_since_ = truth.stamp;
     if (truth.stamp - free_since_ >= kChatter) contact_since_ = kNever;
     if (!airborne_ && truth.stamp - free_since_ >= kFlight) {
       airborne_ = true;
+      hardest_ = 0.0;
       return "lifted_off";
     }
   }

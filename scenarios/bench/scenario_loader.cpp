@@ -68,7 +68,8 @@ std::string vehicles_in(const std::filesystem::path& root) {
   return text;
 }
 
-/// The vehicle's files, those that are there, merged.
+/// The vehicle's files, merged. All are needed: flying with other sensors than meant would look like a
+/// success.
 toml::table load_vehicle(const std::filesystem::path& root, const VehicleFolder& folder) {
   const std::filesystem::path place = root / folder.name;
   if (!is_there(place / kVehicleFiles[0])) {
@@ -78,7 +79,12 @@ toml::table load_vehicle(const std::filesystem::path& root, const VehicleFolder&
   }
   toml::table merged;
   for (const char* name : kVehicleFiles) {
-    if (is_there(place / name)) merge_toml(merged, load_toml(readable(place / name), root));
+    if (!is_there(place / name)) {
+      throw ConfigError(folder.place + (folder.place.empty() ? "" : ": ") + "vehicle = \"" + folder.name +
+                        "\": there is no " + readable(place / name).string() +
+                        "; an empty file takes the defaults");
+    }
+    merge_toml(merged, load_toml(readable(place / name), root));
   }
   return merged;
 }

@@ -94,7 +94,11 @@ class Rules {
           "waypoint: there is none, and no event flies anything; add a [[waypoint]], or an [[event]] with "
           "add_waypoint, setpoint, request or pilot");
     }
-    if (loaded_.scenario.cyclic && longest_route(loaded_.scenario) < 2) {
+    const auto added =
+        static_cast<std::size_t>(std::count_if(events.begin(), events.end(), [](const EventConfig& event) {
+          return event.add_waypoint.has_value();
+        }));
+    if (loaded_.scenario.cyclic && waypoints.size() + added < 2) {
       report("cyclic = true: a round needs at least two waypoints, found " +
              std::to_string(waypoints.size()));
     }

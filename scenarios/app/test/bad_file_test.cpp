@@ -49,6 +49,16 @@ TEST(BadFileTest, TheOthersFlyWhenOneOfSeveralScenariosIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(out + "/wrong"));
 }
 
+TEST(BadFileTest, AVehicleWithoutItsSensorsIsRefused) {
+  const TemporaryFolder folder;
+  const std::string vehicle = (folder / "vehicle").string();
+  const std::string mission = folder.write("mission.toml", kMission);
+  const Said said = run_shell("cp -r models/x650 " + vehicle + " && rm " + vehicle + "/sensors.toml && " +
+                              kProgram + " run " + mission + " --no-log --set vehicle=" + vehicle);
+  EXPECT_EQ(said.exit_code, 2) << said.text;
+  EXPECT_NE(said.text.find("there is no " + vehicle + "/sensors.toml"), std::string::npos) << said.text;
+}
+
 struct OddFile {
   const char* name;
   std::string make;  // what the shell does; F is the file

@@ -11,6 +11,10 @@ namespace {
 INSTANTIATE_TEST_SUITE_P(
     Script, BadInputTest,
     ::testing::ValuesIn(std::vector<BadInput>{
+        BadInput{"RoundOfNothing",
+                 "cyclic = true\n[[event]]\nat = 1\nrequest = \"return_to_launch\"\n",
+                 "",
+                 {"bad.toml:1:", "at least two waypoints, found 0"}},
         BadInput{"EventOfTwoThings",
                  mission_and("[[event]]\nat = 1\nrequest = \"land\"\npilot = \"arm\"\n"),
                  "",

@@ -40,6 +40,26 @@ TEST(GroundWatchTest, SeesALandingUnderAChatteringLandingGear) {
   EXPECT_EQ(said, (std::vector<std::string>{"landed"}));
 }
 
+TEST(GroundWatchTest, CallsAFallACrash) {
+  GroundWatch watch;
+  simulator::Truth truth;
+  show(watch, truth, true, 1.0);
+  truth.v_NB_N.z() = 6.0;
+  show(watch, truth, false, 1.0);
+  truth.v_NB_N.z() = 0.0;
+  EXPECT_EQ(show(watch, truth, true, 1.0), (std::vector<std::string>{"crashed"}));
+  show(watch, truth, false, 1.0);
+  EXPECT_EQ(show(watch, truth, true, 1.0), (std::vector<std::string>{"landed"})) << "the next one is its own";
+}
+
+TEST(GroundWatchTest, CallsAVehicleOnItsBackCrashed) {
+  GroundWatch watch;
+  simulator::Truth truth;
+  show(watch, truth, false, 1.0);
+  truth.q_NB = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+  EXPECT_EQ(show(watch, truth, true, 1.0), (std::vector<std::string>{"crashed"}));
+}
+
 TEST(GroundWatchTest, TakesAHopForNeitherFlightNorLanding) {
   GroundWatch watch;
   simulator::Truth truth;
