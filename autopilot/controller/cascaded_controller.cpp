@@ -12,6 +12,8 @@ namespace {
 
 // So near to the height of the launch the vehicle is more likely on the ground than in the air.
 constexpr double kLow = 1.0;           // m
+constexpr double kOverturned = 0.5;    // cosine of 60 deg, half as much again as any limit of tilt
+constexpr double kLiesStill = 1.0;     // s
 constexpr double kShortestRest = 0.3;  // s, which is enough there
 constexpr double kOffGround = 0.3;     // m above the launch: the climb has begun
 // A vehicle that sinks slower than this share of what it was told to is held up by something.
@@ -33,6 +35,7 @@ void CascadedController::reset() {
   armed_at_.reset();
   seen_disarmed_ = false;
   rests_since_.reset();
+  overturned_since_.reset();
 }
 
 void CascadedController::take_over(const Signals& signals) {
@@ -85,6 +88,10 @@ FcuCommand CascadedController::control(const ControlSetpoint& setpoint, bool lan
     cascade_.reset();
     return SilenceCommand{};
   }
+  if (lies_overturned(estimate)) {
+    cascade_.reset();
+    return PassThroughCommand{};
+  }
   const bool overridden = status.overridden();
   const bool stands =
       step.phase == FlightPhase::kTakeOff && memory().launch_N.z() - estimate.p_NB_N.z() < kOffGround;
@@ -113,6 +120,14 @@ void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& s
   if (!status.armed) armed_at_.reset();
   seen_disarmed_ = !status.armed && status.stamp.count() > 0;
   const double speed = estimate.position_known ? estimate.v_NB_B.norm() : std::abs(estimate.v_NB_N().z());
+  // Nothing that flies leans so far without moving or turning.
+  const bool overturned = is_usable(estimate) && (estimate.q_NB * Vector3::UnitZ()).z() < kOverturned &&
+                          speed < params().rest_speed && estimate.w_NB_B.norm() < params().rest_rate;
+  if (!overturned) {
+    overturned_since_.reset();
+  } else if (!overturned_since_) {
+    overturned_since_ = estimate.stamp;
+  }
   const bool still = status.overridden() && is_usable(estimate) && speed < params().rest_speed &&
                      estimate.w_NB_B.norm() < params().rest_rate;
   if (!still) {
@@ -120,6 +135,10 @@ void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& s
   } else if (!rests_since_) {
     rests_since_ = estimate.stamp;
   }
+}
+
+bool CascadedController::lies_overturned(const StateEstimate& estimate) const {
+  return overturned_since_ && seconds(estimate.stamp - *overturned_since_) >= kLiesStill;
 }
 
 bool CascadedController::rests_with_pilot(const StateEstimate& estimate) const {

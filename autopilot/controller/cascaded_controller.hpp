@@ -106,6 +106,7 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
                      const FcuStatus& status, FlightPhase phase) const;
   void watch(const StateEstimate& estimate, const FcuStatus& status);
   bool rests_with_pilot(const StateEstimate& estimate) const;
+  bool lies_overturned(const StateEstimate& estimate) const;
   bool take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
                        const FcuStatus& status, FlightPhase phase) const;
   void enter(FlightPhase phase, FlightPhase from, const StateEstimate& estimate);
@@ -117,10 +118,11 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
 
   Cascade cascade_;
   TouchDown touch_down_;
-  std::array<bool, 3> wishes_{};     // one for each FlightWish, for the next step only
-  bool seen_disarmed_ = false;       // by this object, in the step before
-  std::optional<Time> armed_at_;     // none: not armed, or not seen to arm
-  std::optional<Time> rests_since_;  // none: it moves, or is not in other hands
+  std::array<bool, 3> wishes_{};          // one for each FlightWish, for the next step only
+  bool seen_disarmed_ = false;            // by this object, in the step before
+  std::optional<Time> armed_at_;          // none: not armed, or not seen to arm
+  std::optional<Time> rests_since_;       // none: it moves, or is not in other hands
+  std::optional<Time> overturned_since_;  // none: it moves, or leans less than 60 deg
 };
 
 }  // namespace ironbird::autopilot

@@ -182,5 +182,25 @@ TEST_F(CascadedControllerTest, KeepsTheMotorsStillOnTheGroundAfterItsPredecessor
   EXPECT_EQ(successor.memory().launch_N, Vector3(3.0, 4.0, 0.0));
 }
 
+TEST_F(CascadedControllerTest, GivesAVehicleThatLiesOnItsBackNoThrust) {
+  fly_offboard();
+  estimate_.q_NB = Quaternion(0.0, 1.0, 0.0, 0.0);
+  run_for(0.9);
+  EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, 0.0) << "it may still be turning over";
+  run_for(0.2);
+  const auto* command = std::get_if<PassThroughCommand>(&run());
+  ASSERT_NE(command, nullptr);
+  EXPECT_EQ(command->thrust, 0.0);
+  EXPECT_EQ(command->M_B, Vector3::Zero());
+}
+
+TEST_F(CascadedControllerTest, FliesOnOnItsBackWhileItFalls) {
+  fly_offboard();
+  estimate_.q_NB = Quaternion(0.0, 1.0, 0.0, 0.0);
+  estimate_.v_NB_B.z() = -3.0;  // down
+  run_for(3.0);
+  EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, 0.0);
+}
+
 }  // namespace
 }  // namespace ironbird::autopilot
