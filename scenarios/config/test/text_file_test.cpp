@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -14,10 +15,15 @@ using ::testing::HasSubstr;
 
 class TextFileTest : public ::testing::Test {
  protected:
-  TextFileTest() : folder_(std::filesystem::path(::testing::TempDir()) / "text_file") {
-    std::filesystem::remove_all(folder_);
+  TextFileTest()
+      : folder_(std::filesystem::path(::testing::TempDir()) / ("text_file_" + std::to_string(getpid()))) {
+    // Tests of one program run at the same time: each needs a folder of its own.
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "mission.toml") << "x = 1\n";
+  }
+  ~TextFileTest() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
   }
 
   std::string refusal(const std::filesystem::path& file) const {
