@@ -1,6 +1,7 @@
 #include "scenarios/record/log.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -15,7 +16,8 @@ namespace {
 using std::chrono::milliseconds;
 
 TEST(LogTest, ReadsBackWhatTheRecorderWrote) {
-  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "log_test.mcap";
+  const std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) / ("log_test_" + std::to_string(getpid()) + ".mcap");
   autopilot::Signals signals;
   simulator::Truth truth;
   Recorder recorder(file);
