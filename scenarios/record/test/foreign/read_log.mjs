@@ -34,7 +34,11 @@ function readStream() {
   const channels = new Map();
   for (let record; (record = reader.nextRecord()); ) {
     switch (record.type) {
-      case "Header": found.header = { profile: record.profile, library: record.library }; break;
+      case "Header": {
+        const { profile, library } = record;
+        found.header = { profile, library };
+        break;
+      }
       case "Schema":
         if (!schemas.has(record.id)) schemas.set(record.id, { name: record.name, reader: messageReader(record) });
         break;
