@@ -11,9 +11,9 @@ namespace ironbird::autopilot {
 namespace {
 
 // So near to the height of the launch the vehicle is more likely on the ground than in the air.
-constexpr double kLow = 1.0;           // m
-constexpr double kOverturned = 0.5;    // cosine of 60 deg, half as much again as any limit of tilt
-constexpr double kLiesStill = 1.0;     // s
+constexpr double kLow = 1.0;         // m
+constexpr double kOverturned = 0.5;  // cosine of 60 deg, who flies so is at speed within a tenth of a second
+constexpr double kLiesStill = 1.0;   // s
 constexpr double kShortestRest = 0.3;  // s, which is enough there
 constexpr double kOffGround = 0.3;     // m above the launch: the climb has begun
 // A vehicle that sinks slower than this share of what it was told to is held up by something.

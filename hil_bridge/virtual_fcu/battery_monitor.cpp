@@ -8,8 +8,12 @@ namespace {
 
 constexpr float kBootLowPass = 0.995F;
 
-void low_pass(float alpha, float measured, float& filtered) {
-  if (std::isfinite(measured)) filtered = (1.0F - alpha) * measured + alpha * filtered;
+// Far beyond what any multirotor's battery or sensor shows: what exceeds it is no reading.
+constexpr float kMostVoltage = 1.0e3F;  // V
+constexpr float kMostCurrent = 1.0e4F;  // A
+
+void low_pass(float alpha, float measured, float most, float& filtered) {
+  if (std::fabs(measured) <= most) filtered = (1.0F - alpha) * measured + alpha * filtered;
 }
 
 }  // namespace
@@ -35,8 +39,8 @@ void BatteryMonitor::change_filters(const ParameterStore& parameters) {
 }
 
 void BatteryMonitor::add(const BatteryInput& sample) {
-  low_pass(voltage_lpf_, sample.voltage * voltage_factor_, voltage_);
-  low_pass(current_lpf_, sample.current * current_factor_, current_);
+  low_pass(voltage_lpf_, sample.voltage * voltage_factor_, kMostVoltage, voltage_);
+  low_pass(current_lpf_, sample.current * current_factor_, kMostCurrent, current_);
 }
 
 }  // namespace ironbird::hil_bridge::virtual_fcu

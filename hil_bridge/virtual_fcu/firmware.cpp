@@ -9,7 +9,6 @@ namespace {
 // What no sensor on a vehicle can say: its squares would overflow, and the filters never forget.
 constexpr float kMostAcceleration = 1.0e3F;  // m/s^2
 constexpr float kMostRate = 1.0e2F;          // rad/s
-constexpr float kMostVoltage = 1.0e3F;       // V
 
 /// Every component is a number within +-limit. False for NaN.
 bool is_within(const Triple& v, float limit) {
@@ -64,7 +63,7 @@ void Firmware::read_sensors(Board& board) {
     believed_imu_.stamp_us = imu_.stamp_us;
   }
   read_pressures(board);
-  if (board.battery && std::fabs(board.battery->voltage) <= kMostVoltage) battery_.add(*board.battery);
+  if (board.battery) battery_.add(*board.battery);
 }
 
 void Firmware::read_pressures(const Board& board) {

@@ -7,6 +7,7 @@
 #include "autopilot/types/state_estimate.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/config/nearest_name.hpp"
+#include "scenarios/requirements/timeline.hpp"
 
 namespace ironbird::scenarios {
 
@@ -32,9 +33,14 @@ bool asks_for(const Scenario& scenario, OperatorWish wish) {
 
 }  // namespace
 
-std::size_t longest_route(const Scenario& scenario) {
+std::size_t longest_mission(const Scenario& scenario) {
   std::size_t count = scenario.waypoints.size();
   for (const EventConfig& event : scenario.events) count += event.add_waypoint ? 1 : 0;
+  return count;
+}
+
+std::size_t longest_route(const Scenario& scenario) {
+  const std::size_t count = longest_mission(scenario);
   return asks_for(scenario, OperatorWish::kReturnToLaunch) ? std::max(count, kReturnWaypoints) : count;
 }
 
@@ -48,9 +54,7 @@ EventNames::EventNames(const Scenario& scenario) {
 void EventNames::add_flight(const Scenario& scenario) {
   for (const auto& [value, name] : enumerators(autopilot::Health{}))
     names_.push_back({"health", std::string(name)});
-  names_.push_back({"ground", "landed"});
-  names_.push_back({"ground", "lifted_off"});
-  names_.push_back({"ground", "crashed"});
+  for (const std::string_view name : kGroundEvents) names_.push_back({"ground", std::string(name)});
   if (!somebody_arms(scenario)) return;
   names_.push_back({"arming", "armed"});
   names_.push_back({"arming", "unarmed"});

@@ -94,11 +94,7 @@ class Rules {
           "waypoint: there is none, and no event flies anything; add a [[waypoint]], or an [[event]] with "
           "add_waypoint, setpoint, request or pilot");
     }
-    const auto added =
-        static_cast<std::size_t>(std::count_if(events.begin(), events.end(), [](const EventConfig& event) {
-          return event.add_waypoint.has_value();
-        }));
-    if (loaded_.scenario.cyclic && waypoints.size() + added < 2) {
+    if (loaded_.scenario.cyclic && longest_mission(loaded_.scenario) < 2) {
       report("cyclic = true: a round needs at least two waypoints, found " +
              std::to_string(waypoints.size()));
     }

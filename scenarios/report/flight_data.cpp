@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "scenarios/record/held_column.hpp"
 #include "scenarios/requirements/attitude.hpp"
 #include "scenarios/requirements/metrics.hpp"
 
@@ -115,52 +117,40 @@ std::vector<PlannedRoute> routes_of(const ReportRun& run) {
   return out;
 }
 
-/// A column of numbers that hold until the next message; `otherwise` before the first and without any.
-class Held {
- public:
-  Held(const ReportRun& run, const char* topic, const char* field, double otherwise = 0.0)
-      : time_(run.time(topic)), value_(run.column(topic, field)), otherwise_(otherwise) {}
-
-  /// @param time  s, not before that of the call before
-  double at(double time) {
-    const std::size_t size = std::min(time_.size(), value_.size());
-    while (next_ < size && time_[next_] <= time) ++next_;
-    return next_ == 0 ? otherwise_ : value_[next_ - 1];
-  }
-
- private:
-  const std::vector<double>& time_;
-  const std::vector<double>& value_;
-  double otherwise_;
-  std::size_t next_ = 0;
-};
-
-/// Whether a moment counts for the path error, by the rule of RunMetrics: the companion flies, a waypoint is
-/// behind it and another before it.
+/// Whether a moment of the log counts for the path error.
 class LegUnderWay {
  public:
   explicit LegUnderWay(const ReportRun& run) : run_(run) {}
 
+  /// @param time  s, not before that of the call before
   bool at(double time, const autopilot::Route& route) {
-    const bool companion_flies = phase_.at(time) == static_cast<double>(autopilot::FlightPhase::kOffboard) &&
-                                 armed_.at(time) == 1.0 && failsafe_.at(time) == 0.0 &&
-                                 override_.at(time) == 0.0;
-    const double reached = reached_.at(time);
-    const bool last_reached = !route.cyclic && reached >= static_cast<double>(route.waypoints.size());
-    const bool is_over = finished_.at(time) == 1.0 || landing_.at(time) == 1.0;
-    return companion_flies && valid_.at(time) == 1.0 && reached >= 1.0 && !last_reached && !is_over;
+    autopilot::FlightStatus flight;
+    flight.phase = static_cast<autopilot::FlightPhase>(static_cast<int>(phase_.at(time)));
+    flight.fcu.armed = armed_.at(time) == 1.0;
+    flight.fcu.failsafe = failsafe_.at(time) == 1.0;
+    flight.fcu.rc_override = static_cast<std::uint16_t>(override_.at(time));
+    autopilot::TrajectoryPoint trajectory;
+    trajectory.valid = valid_.at(time) == 1.0;
+    trajectory.reached = static_cast<std::uint32_t>(reached_.at(time));
+    trajectory.finished = finished_.at(time) == 1.0;
+    trajectory.landing = landing_.at(time) == 1.0;
+    return counts_for_path(flight, trajectory, route);
   }
 
  private:
+  HeldColumn held(const char* topic, const char* field) const {
+    return {run_.log().topic(topic), field, 0.0};
+  }
+
   const ReportRun& run_;
-  Held phase_{run_, kFlight, "phase"};
-  Held armed_{run_, kFlight, "fcu.armed"};
-  Held failsafe_{run_, kFlight, "fcu.failsafe"};
-  Held override_{run_, kFlight, "fcu.rc_override"};
-  Held valid_{run_, kTrajectory, "valid"};
-  Held reached_{run_, kTrajectory, "reached"};
-  Held finished_{run_, kTrajectory, "finished"};
-  Held landing_{run_, kTrajectory, "landing"};
+  HeldColumn phase_ = held(kFlight, "phase");
+  HeldColumn armed_ = held(kFlight, "fcu.armed");
+  HeldColumn failsafe_ = held(kFlight, "fcu.failsafe");
+  HeldColumn override_ = held(kFlight, "fcu.rc_override");
+  HeldColumn valid_ = held(kTrajectory, "valid");
+  HeldColumn reached_ = held(kTrajectory, "reached");
+  HeldColumn finished_ = held(kTrajectory, "finished");
+  HeldColumn landing_ = held(kTrajectory, "landing");
 };
 
 /// The route that was in force for the longest time of those that have waypoints: what the flight was about,

@@ -75,6 +75,13 @@ Eigen::Vector3d to_polyline(const Eigen::Vector3d& p_N, const autopilot::Route& 
   return nearest;
 }
 
+bool counts_for_path(const autopilot::FlightStatus& flight, const autopilot::TrajectoryPoint& trajectory,
+                     const autopilot::Route& route) {
+  const bool last_reached = !route.cyclic && trajectory.reached >= route.waypoints.size();
+  return flight.companion_flies() && trajectory.valid && trajectory.reached > 0 && !last_reached &&
+         !trajectory.finished && !trajectory.landing;
+}
+
 RunMetrics::RunMetrics(Sources sources, Time period) : sources_(sources), period_(period) {
   if (sources.autopilot == nullptr) throw std::invalid_argument("metrics need the autopilot's signals");
   if (period <= Time{0}) throw std::invalid_argument("period of the metrics = 0 s, must be > 0");
@@ -106,8 +113,7 @@ void RunMetrics::sample_path() {
   add(tracking_, estimated - trajectory.p_N);
   if (truth != nullptr) add(true_tracking_, truth->p_NB_N - trajectory.p_N);
 
-  const bool last_reached = !pilot.route.cyclic && trajectory.reached >= pilot.route.waypoints.size();
-  if (trajectory.reached == 0 || last_reached || trajectory.finished || trajectory.landing) return;
+  if (!counts_for_path(pilot.flight, trajectory, pilot.route)) return;
   add(path_, to_polyline(estimated, pilot.route));
   if (truth != nullptr) add(true_path_, to_polyline(truth->p_NB_N, pilot.route));
 }

@@ -106,6 +106,11 @@ class RunMetrics {
   MeanSquare attitude_;
 };
 
+/// Whether a moment counts for the path error: the companion flies, a waypoint is behind it and another
+/// before.
+bool counts_for_path(const autopilot::FlightStatus& flight, const autopilot::TrajectoryPoint& trajectory,
+                     const autopilot::Route& route);
+
 /// From `p_N` to the nearest point of the polyline through the waypoints of `route`, m; the zero vector when
 /// the route is empty. A cyclic route is closed.
 Eigen::Vector3d to_polyline(const Eigen::Vector3d& p_N, const autopilot::Route& route);

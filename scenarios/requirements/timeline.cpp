@@ -26,10 +26,12 @@ bool is_of_the_flight(std::string_view name) {
   const auto is_one_of = [name](auto names) {
     return std::any_of(names.begin(), names.end(), [name](const auto& one) { return one.second == name; });
   };
-  constexpr std::array<std::string_view, 6> kOthers{"armed",      "unarmed", "route_finished",
-                                                    "lifted_off", "landed",  "crashed"};
+  constexpr std::array<std::string_view, 3> kOthers{"armed", "unarmed", "route_finished"};
+  const auto has = [name](const auto& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
   return is_one_of(enumerators(autopilot::FlightPhase{})) || is_one_of(enumerators(autopilot::Health{})) ||
-         name.starts_with("waypoint_") || std::find(kOthers.begin(), kOthers.end(), name) != kOthers.end();
+         name.starts_with("waypoint_") || has(kGroundEvents) || has(kOthers);
 }
 
 bool is_called(const RunEvent& event, std::string_view name) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -10,6 +11,9 @@
 #include "autopilot/signals.hpp"
 
 namespace ironbird::scenarios {
+
+/// What the pilot sees of the ground: the vehicle leaves it, comes down on it well, or otherwise.
+inline constexpr std::array<std::string_view, 3> kGroundEvents{"lifted_off", "landed", "crashed"};
 
 /// Something that happened in a run.
 struct RunEvent {

@@ -10,6 +10,7 @@
 
 #include "autopilot/types/flight_status.hpp"
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/record/held_column.hpp"
 #include "scenarios/video/camera_work.hpp"
 #include "scenarios/video/pose_track.hpp"
 

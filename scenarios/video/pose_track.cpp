@@ -5,25 +5,6 @@
 
 namespace ironbird::scenarios {
 
-HeldColumn::HeldColumn(const LogTopic* topic, const std::string& field, double otherwise)
-    : otherwise_(otherwise) {
-  if (topic != nullptr && topic->has(field)) {
-    time_ = &topic->time();
-    value_ = &topic->column(field);
-  }
-}
-
-double HeldColumn::at(double time) {
-  if (value_ == nullptr) {
-    return otherwise_;
-  }
-  while (next_ < time_->size() && (*time_)[next_] <= time) {
-    ++next_;
-  }
-  const double value = next_ == 0 ? otherwise_ : (*value_)[next_ - 1];
-  return std::isfinite(value) ? value : otherwise_;
-}
-
 PoseTrack::PoseTrack(const LogTopic& topic)
     : time_(&topic.time()), columns_{&topic.column("p_NB_N.x"), &topic.column("p_NB_N.y"),
                                      &topic.column("p_NB_N.z"), &topic.column("q_NB.w"),

@@ -240,5 +240,18 @@ TEST(BatteryMonitorTest, NeedsTwentySecondsAtTenHertz) {
   EXPECT_NEAR(battery.voltage(), 24.0 + std::exp(-200.0 * 0.005), 0.002);
 }
 
+TEST(BatteryMonitorTest, JudgesEachReadingOfASampleByItself) {
+  ParameterStore parameters;
+  BatteryMonitor battery;
+  battery.start(parameters);
+  battery.add({1e30F, 8.0F});
+  EXPECT_EQ(battery.voltage(), 25.0F);
+  EXPECT_GT(battery.current(), 0.0F);
+  const float current = battery.current();
+  battery.add({20.0F, -1e30F});
+  EXPECT_LT(battery.voltage(), 25.0F);
+  EXPECT_EQ(battery.current(), current);
+}
+
 }  // namespace
 }  // namespace ironbird::hil_bridge::virtual_fcu
