@@ -17,6 +17,38 @@ target_include_directories(ironbird_options INTERFACE ${PROJECT_SOURCE_DIR})
 # Eigen's vectorised sums would otherwise depend on the optimisation level's choice of alignment.
 target_compile_definitions(ironbird_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MPL2_ONLY)
 
+# IRONBIRD_PRECOMPILED_HEADERS names whose foreign headers (Eigen, standard library, GoogleTest) are read once a build
+# instead of once a file: `tests`, `libraries`. Where neither is named a file that forgot an include is found.
+function(ironbird_precompiled whose)
+  cmake_parse_arguments(arg "" "" "HEADERS;LINKS;OPTIONS" ${ARGN})
+  if(NOT whose IN_LIST IRONBIRD_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  set(target ironbird_headers_of_${whose})
+  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/${target}.cpp CONTENT "// Carries the precompiled headers of the ${whose}.\n")
+  add_library(${target} OBJECT ${PROJECT_BINARY_DIR}/${target}.cpp)
+  target_link_libraries(${target} PRIVATE ironbird_options ${arg_LINKS})
+  target_compile_options(${target} PRIVATE ${arg_OPTIONS})
+  target_precompile_headers(${target} PRIVATE ${arg_HEADERS})
+endfunction()
+function(ironbird_reuse_headers target whose)
+  if(whose IN_LIST IRONBIRD_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM ironbird_headers_of_${whose})
+    # GCC 12 finds fault with std::string's own operator+ (its bug 105651) and says so where it is precompiled.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
+  endif()
+endfunction()
+set(headers <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional>
+            <limits> <map> <memory> <numbers> <optional> <span> <sstream> <stdexcept> <string> <string_view> <utility>
+            <variant> <vector>)
+ironbird_precompiled(libraries HEADERS ${headers} LINKS Eigen3::Eigen)
+# Of a release build only the tests' own code, which runs once, is optimised less than what it tests.
+set(test_options $<$<CONFIG:Release>:-O1>)
+if(IRONBIRD_TESTS)
+  ironbird_precompiled(tests HEADERS ${headers} <gmock/gmock.h> <gtest/gtest.h> LINKS Eigen3::Eigen GTest::gmock
+                       OPTIONS ${test_options})
+endif()
+
 # ironbird_library(NAME simulator_mujoco SOURCES a.cpp ... LINKS simulator mujoco::mujoco)
 #   makes the static library ironbird_NAME and its alias ironbird::NAME.
 function(ironbird_library)
@@ -27,6 +59,7 @@ function(ironbird_library)
   set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME ${arg_NAME})
   set_property(GLOBAL APPEND PROPERTY IRONBIRD_LIBRARIES ${target})
   target_link_libraries(${target} PUBLIC ironbird_options ${arg_LINKS})
+  ironbird_reuse_headers(${target} libraries)
 endfunction()
 
 # Writes the package files by which a program outside this tree finds the libraries in the build folder:
@@ -49,6 +82,9 @@ function(ironbird_test)
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()
+  if(slow IN_LIST arg_LABELS AND NOT IRONBIRD_SLOW_TESTS)
+    return()
+  endif()
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
@@ -56,6 +92,8 @@ function(ironbird_test)
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ironbird_options ${arg_LINKS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE IRONBIRD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_compile_options(${target} PRIVATE ${test_options})
+  ironbird_reuse_headers(${target} tests)
   if(arg_WHOLE)
     add_test(NAME ${target} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${target} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
