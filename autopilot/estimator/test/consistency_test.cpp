@@ -112,6 +112,7 @@ void set_up(TestedEkf& filter, Hidden& hidden, Noise& noise) {
   EkfParams params;
   params.aiding = matched_aiding();
   params.noise.velocity = 0.0;
+  params.noise.velocity_down = 0.0;
   params.noise.roll_pitch = 0.0;
   params.noise.heading = 0.0;
   params.noise.gyro_bias = 0.0;
