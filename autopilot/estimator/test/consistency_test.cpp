@@ -233,6 +233,7 @@ void correct_all(Filter& filter, const FakeTruth& truth, const Hidden& hidden, N
   fix.dp_N = fix.p_N - filter.kinematics().p_N;
   fix.dv_N = fix.v_N - filter.kinematics().v_N;
   fix.variance_p.setConstant(kGnssSigma * kGnssSigma);
+  fix.gate_variance_p = fix.variance_p;
   fix.variance_v.setConstant(kVelocitySigma * kVelocitySigma);
   filter.correct_gnss(fix, Time{0});
 }
