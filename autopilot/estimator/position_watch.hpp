@@ -22,8 +22,7 @@ class PositionWatch {
   /// Fills the members of the estimate that tell of jumps. @param fresh  later than the one before
   void observe(StateEstimate& fresh) {
     if (is_usable(fresh.health) && is_usable(last_.health)) {
-      Vector3 jump_N =
-          fresh.p_NB_N - last_.p_NB_N - last_.v_NB_N() * seconds(fresh.stamp - last_.stamp);
+      Vector3 jump_N = fresh.p_NB_N - last_.p_NB_N - last_.v_NB_N() * seconds(fresh.stamp - last_.stamp);
       jump_N.z() = 0.0;
       if (jump_N.squaredNorm() > kLeastJump * kLeastJump) {
         ++resets_;
