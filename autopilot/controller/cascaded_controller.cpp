@@ -16,6 +16,9 @@ constexpr double kOverturned = 0.5;  // cosine of 60 deg, who flies so is at spe
 constexpr double kLiesStill = 1.0;   // s
 constexpr double kShortestRest = 0.3;  // s, which is enough there
 constexpr double kOffGround = 0.3;     // m above the launch: the climb has begun
+constexpr double kLeastGain = 0.2;     // 1/s, of position to velocity: a longer way to rest is none
+constexpr double kBlindTilt = 0.35;    // rad, 1 sigma: less sure it is better not to turn
+constexpr double kBlindLift = 0.97;    // of the weight: rather down than up
 // A vehicle that sinks slower than this share of what it was told to is held up by something.
 constexpr double kStoppedShare = 0.4;
 
@@ -34,6 +37,7 @@ void CascadedController::reset() {
   wishes_.fill(false);
   armed_at_.reset();
   seen_disarmed_ = false;
+  blind_since_.reset();
   rests_since_.reset();
   overturned_since_.reset();
 }
@@ -56,6 +60,7 @@ RequestOutcome CascadedController::request(FlightWish wish, const StateEstimate&
                                                  .pilot_holds = status.pilot_holds(),
                                                  .estimate_usable = is_usable(estimate),
                                                  .position_known = estimate.position_known,
+                                                 .position_doubtful = estimate.position_doubtful,
                                                  .on_ground = touch_down_.felt()});
   if (!reason.empty()) return {false, std::string(reason)};
   wishes_[static_cast<std::size_t>(wish)] = true;
@@ -85,8 +90,7 @@ FcuCommand CascadedController::control(const ControlSetpoint& setpoint, bool lan
     return PassThroughCommand{};
   }
   if (step.phase == FlightPhase::kSilent) {
-    cascade_.reset();
-    return SilenceCommand{};
+    return without_estimate(estimate, status.overridden(), dt);
   }
   if (lies_overturned(estimate)) {
     cascade_.reset();
@@ -167,6 +171,8 @@ PhaseInputs CascadedController::inputs(const ControlSetpoint& setpoint, bool lan
   in.armed = status.armed;
   in.estimate_usable = is_usable(estimate);
   in.position_known = estimate.position_known;
+  in.position_doubtful = estimate.position_doubtful;
+  in.doubt_long = in_phase >= params().doubt_patience;
   in.setpoint_valid = !std::holds_alternative<NoSetpoint>(setpoint);
   in.take_off_wanted = take_off_wanted(setpoint, estimate, status, phase);
   in.height_reached =
@@ -185,6 +191,9 @@ void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateE
   touch_down_.reset();
   rests_since_.reset();
   FlightMemory& m = notebook();
+  const bool high = m.launch_N.z() - estimate.p_NB_N.z() > kLow;
+  blind_since_.reset();
+  if (phase == FlightPhase::kSilent && m.launched && !m.on_ground && high) blind_since_ = estimate.stamp;
   m.on_ground = false;
   if (from == FlightPhase::kTakeOff && phase == FlightPhase::kHold) {  // over the place where it climbed
     m.point_N.z() = std::min(estimate.p_NB_N.z(), m.launch_N.z() - params().take_off_height);
@@ -194,6 +203,31 @@ void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateE
   m.has_point = true;
   m.point_N = estimate.p_NB_N;
   m.point_heading = estimate.heading;
+  if (phase == FlightPhase::kHold && estimate.position_doubtful) m.point_N += way_to_rest(estimate);
+}
+
+Vector3 CascadedController::way_to_rest(const StateEstimate& estimate) const {
+  // Where the loops ask for the speed that it has.
+  const Vector3 v_NB_N = estimate.v_NB_N();
+  const double kp_n = std::max(params().pos_n_to_vel.kp, kLeastGain);
+  const double kp_e = std::max(params().pos_e_to_vel.kp, kLeastGain);
+  return {v_NB_N.x() / kp_n, v_NB_N.y() / kp_e, 0.0};
+}
+
+FcuCommand CascadedController::without_estimate(const StateEstimate& estimate, bool overridden, double dt) {
+  // In the air silence is a fall when the pilot's throttle is down. The FCU's angle mode is no way out: that
+  // stick limits the throttle there too.
+  const bool blind =
+      blind_since_ && !overridden && seconds(estimate.stamp - *blind_since_) <= params().silence_patience;
+  const double thrust = kBlindLift * params().mass * params().gravity;
+  const bool knows_up = std::isfinite(estimate.roll + estimate.pitch) && estimate.w_NB_B.allFinite() &&
+                        estimate.sigma_attitude.head<2>().maxCoeff() < kBlindTilt;
+  if (blind && knows_up) {
+    return cascade_.fly(AngleHeadingRateThrust{0.0, 0.0, 0.0, thrust}, estimate, Cascade::Step{dt});
+  }
+  cascade_.reset();
+  if (!blind) return SilenceCommand{};
+  return PassThroughCommand{Vector3::Zero(), thrust};  // nothing is known to turn against
 }
 
 ControlSetpoint CascadedController::climb() const {

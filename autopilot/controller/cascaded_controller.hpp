@@ -30,6 +30,7 @@ struct CascadedControllerParams : CascadeParams {
   double touch_down_time = 1.0;
   double arming_patience = 5.0;
   double silence_patience = 2.0;
+  double doubt_patience = 10.0;
   double rest_speed = 0.15;
   double rest_rate = 0.05;
   double rest_time = 2.0;
@@ -60,7 +61,12 @@ struct CascadedControllerParams : CascadeParams {
     visit("arming_patience", self.arming_patience, "s",
           "how long after arming it still counts as the request to take off", 0.1, 30.0);
     visit("silence_patience", self.silence_patience, "s",
-          "an estimate that is back so soon is landed on; later only by request", 0.0, 10.0);
+          "without an estimate it is kept level for so long; one that is back by then is landed on, later "
+          "only by "
+          "request",
+          0.0, 10.0);
+    visit("doubt_patience", self.doubt_patience, "s",
+          "how long it holds a position that the satellites contradict, before it lands there", 0.0, 600.0);
     visit("rest_speed", self.rest_speed, "m/s", "slower than this the vehicle may lie on the ground", 0.01,
           1.0);
     visit("rest_rate", self.rest_rate, "rad/s", "turning slower than this it may", 0.001, 1.0);
@@ -85,8 +91,10 @@ struct CascadedControllerParams : CascadeParams {
 ///
 /// The FCU alone can disarm: after touch-down the controller asks for no thrust until the pilot disarms.
 /// While the pilot or a failsafe has the vehicle, all integrals are 0 and the point to hold is where the
-/// vehicle is; when it comes to rest meanwhile, it needs a new request to take off. Without a horizontal
-/// position it descends level; without a usable estimate nothing is sent, and the FCU's own time-out decides.
+/// vehicle is; when it comes to rest meanwhile, it needs a new request to take off. With a position
+/// in doubt it holds, then lands on the spot; without one it descends level; without a usable estimate it is
+/// kept level as far as is known for `silence_patience`, then nothing is sent, and the FCU's own time-out
+/// decides.
 class CascadedController final : public Tunable<Controller, CascadedControllerParams> {
  public:
   CascadedController() : cascade_(params()) {}
@@ -110,6 +118,8 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
   bool take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
                        const FcuStatus& status, FlightPhase phase) const;
   void enter(FlightPhase phase, FlightPhase from, const StateEstimate& estimate);
+  FcuCommand without_estimate(const StateEstimate& estimate, bool overridden, double dt);
+  Vector3 way_to_rest(const StateEstimate& estimate) const;
   ControlSetpoint climb() const;
   ControlSetpoint hold() const;
   double sink_rate(const StateEstimate& estimate) const;
@@ -119,6 +129,7 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
   Cascade cascade_;
   TouchDown touch_down_;
   std::array<bool, 3> wishes_{};          // one for each FlightWish, for the next step only
+  std::optional<Time> blind_since_;       // silence fell in the air
   bool seen_disarmed_ = false;            // by this object, in the step before
   std::optional<Time> armed_at_;          // none: not armed, or not seen to arm
   std::optional<Time> rests_since_;       // none: it moves, or is not in other hands

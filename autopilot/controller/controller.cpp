@@ -13,6 +13,11 @@ const FcuCommand& Controller::run(const ControlSetpoint& setpoint, bool landing,
                                   const StateEstimate& estimate, const FcuStatus& status) {
   double dt = 0.0;
   if (!divider_.due(estimate.stamp, period(), dt)) return last_;
+  if (estimate.position_resets != position_resets_) {
+    // Not the vehicle has moved, but where it is said to be.
+    memory_.point_N += estimate.position_reset_N;
+    position_resets_ = estimate.position_resets;
+  }
   const FlightPhase before = phase();
   last_ = control(all_finite(setpoint) ? setpoint : kNothing, landing, estimate, status, dt, step_);
   if (phase() != before) {
@@ -31,6 +36,7 @@ void Controller::reset() {
   last_ = SilenceCommand{};
   step_ = PhaseStep{};
   memory_ = FlightMemory{};
+  position_resets_ = 0;
   divider_.reset();
 }
 
@@ -38,6 +44,7 @@ void Controller::take_over(const Signals& signals) {
   last_ = signals.command;
   step_ = {signals.flight.phase, signals.flight.cause};
   memory_ = signals.flight.memory;
+  position_resets_ = signals.estimate.position_resets;
 }
 
 }  // namespace ironbird::autopilot

@@ -12,7 +12,8 @@ namespace ironbird::autopilot {
 /// Turns a setpoint at any of the twelve entry points into a command for the FCU, and owns the flight phase.
 class Controller : public Module {
  public:
-  /// One step. Non-finite commands are replaced by SilenceCommand; a non-finite setpoint is taken as none.
+  /// One step. When the estimated position has jumped, the point to hold jumps along. Non-finite commands are
+  /// replaced by SilenceCommand; a non-finite setpoint is taken as none.
   /// @param setpoint  what to fly in the offboard phase
   /// @param landing   the trajectory has come to a landing waypoint: begin the descent
   /// @return the command; valid until the next call
@@ -47,6 +48,7 @@ class Controller : public Module {
   FcuCommand last_ = SilenceCommand{};
   PhaseStep step_;
   FlightMemory memory_;
+  std::uint32_t position_resets_ = 0;  // seen
   Divider divider_;
 };
 

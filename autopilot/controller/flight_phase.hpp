@@ -17,25 +17,29 @@ constexpr std::array<std::pair<FlightWish, std::string_view>, 3> enumerators(Fli
 
 /// What decides the next phase.
 struct PhaseInputs {
-  bool armed = false;             ///< the FCU says so
-  bool estimate_usable = false;   ///< height and attitude can be flown on
-  bool position_known = true;     ///< so can the horizontal position
-  bool take_off_wanted = false;   ///< by request, or by arming
-  bool height_reached = false;    ///< near enough to the take-off height
-  bool hold_over = false;         ///< the hold after take-off has lasted long enough
-  bool setpoint_valid = false;    ///< there is something to fly
-  bool route_lands = false;       ///< the trajectory has come to a landing waypoint
-  bool landing_wanted = false;    ///< by request
-  bool resume_wanted = false;     ///< by request
-  bool on_ground = false;         ///< touch-down was felt
-  bool rests_with_pilot = false;  ///< it lies still while pilot or failsafe has it
-  bool silence_short = false;     ///< it fell silent so recently that it may land by itself
+  bool armed = false;              ///< the FCU says so
+  bool estimate_usable = false;    ///< height and attitude can be flown on
+  bool position_known = true;      ///< so can the horizontal position
+  bool position_doubtful = false;  ///< the satellites contradict it
+  bool doubt_long = false;         ///< they have for so long, in this hold, that it lands
+  bool take_off_wanted = false;    ///< by request, or by arming
+  bool height_reached = false;     ///< near enough to the take-off height
+  bool hold_over = false;          ///< the hold after take-off has lasted long enough
+  bool setpoint_valid = false;     ///< there is something to fly
+  bool route_lands = false;        ///< the trajectory has come to a landing waypoint
+  bool landing_wanted = false;     ///< by request
+  bool resume_wanted = false;      ///< by request
+  bool on_ground = false;          ///< touch-down was felt
+  bool rests_with_pilot = false;   ///< it lies still while pilot or failsafe has it
+  bool silence_short = false;      ///< it fell silent so recently that it may land by itself
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("armed", self.armed, "1", "motors may turn");
     visit("estimate_usable", self.estimate_usable, "1", "height and attitude can be flown on");
     visit("position_known", self.position_known, "1", "so can the horizontal position");
+    visit("position_doubtful", self.position_doubtful, "1", "the satellites contradict it");
+    visit("doubt_long", self.doubt_long, "1", "they have for so long, in this hold, that it lands");
     visit("take_off_wanted", self.take_off_wanted, "1", "by request, or by arming");
     visit("height_reached", self.height_reached, "1", "near enough to the take-off height");
     visit("hold_over", self.hold_over, "1", "the hold has lasted long enough");
@@ -71,6 +75,7 @@ struct WishConditions {
   bool pilot_holds = false;
   bool estimate_usable = false;
   bool position_known = true;
+  bool position_doubtful = false;
   bool on_ground = false;
 
   template <class Self, class Visit>
@@ -81,6 +86,7 @@ struct WishConditions {
     visit("pilot_holds", self.pilot_holds, "1", "switches or sticks of the pilot hold an axis");
     visit("estimate_usable", self.estimate_usable, "1", "height and attitude can be flown on");
     visit("position_known", self.position_known, "1", "so can the horizontal position");
+    visit("position_doubtful", self.position_doubtful, "1", "the satellites contradict it");
     visit("on_ground", self.on_ground, "1", "touch-down was felt");
   }
 };
@@ -97,7 +103,10 @@ constexpr std::string_view why_not(FlightWish wish, const WishConditions& now) {
     if (!now.estimate_usable) return "there is no estimate to fly on";
     if (!now.position_known) return "the horizontal position is not known";
   }
-  if (wish == FlightWish::kTakeOff) return stands ? "" : "it is flying already";
+  if (wish == FlightWish::kTakeOff) {
+    if (!stands) return "it is flying already";
+    return now.position_doubtful ? "the satellites contradict the position" : "";
+  }
   if (stands) return "it is on the ground";
   if (wish == FlightWish::kLand) {
     return now.phase == kSilent && !now.estimate_usable ? "there is no estimate to land on" : "";

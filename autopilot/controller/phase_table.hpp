@@ -58,8 +58,14 @@ constexpr bool no_position(const PhaseInputs& in) {
 constexpr bool may_fly(const PhaseInputs& in) {
   return in.estimate_usable && in.position_known;
 }
+constexpr bool in_doubt(const PhaseInputs& in) {
+  return in.position_doubtful;
+}
+constexpr bool long_in_doubt(const PhaseInputs& in) {
+  return in.position_doubtful && in.doubt_long;
+}
 constexpr bool take_off(const PhaseInputs& in) {
-  return in.take_off_wanted && may_fly(in);
+  return in.take_off_wanted && may_fly(in) && !in_doubt(in);
 }
 constexpr bool take_off_again(const PhaseInputs& in) {
   return on_ground(in) && take_off(in);
@@ -89,7 +95,7 @@ constexpr bool height_reached(const PhaseInputs& in) {
   return in.height_reached;
 }
 constexpr bool hold_over(const PhaseInputs& in) {
-  return in.hold_over && in.setpoint_valid;
+  return in.hold_over && in.setpoint_valid && !in_doubt(in);
 }
 constexpr bool nothing_to_fly(const PhaseInputs& in) {
   return !in.setpoint_valid;
@@ -111,11 +117,15 @@ inline constexpr PhaseSet kDescents{kLanding, kLevelDescent};
 
 inline constexpr std::array kRows = std::to_array<PhaseRow>({
     {"disarms", kAny, kDisarmed, disarmed, "the FCU is disarmed"},
-    {"takes off", {kDisarmed}, kTakeOff, take_off, "a take-off is wanted, with estimate and position"},
+    {"takes off",
+     {kDisarmed},
+     kTakeOff,
+     take_off,
+     "a take-off is wanted, with estimate and position, not in doubt"},
     {"rests", kAnyButDisarmed, kDisarmed, rests, "it lay still while pilot or failsafe had it",
      kRestsWithPilot},
     {"takes off again", kDescents, kTakeOff, take_off_again,
-     "a take-off is wanted on the ground, with estimate and position"},
+     "a take-off is wanted on the ground, with estimate and position, not in doubt"},
     {"stays down", kDescents, {}, on_ground, "touch-down was felt"},
     {"resumes after silence",
      {kSilent},
@@ -152,12 +162,23 @@ inline constexpr std::array kRows = std::to_array<PhaseRow>({
     {"lands from climb", {kTakeOff}, kLanding, land, "a landing is wanted"},
     {"has climbed", {kTakeOff}, kHold, height_reached, "within `take_off_height_threshold` of the height"},
     {"lands from hold", {kHold}, kLanding, land, "a landing is wanted"},
-    {"flies", {kHold}, kOffboard, hold_over, "`take_off_hold_time` is over and there is something to fly"},
+    {"lands in doubt",
+     {kHold},
+     kLanding,
+     long_in_doubt,
+     "the position has been in doubt for `doubt_patience`",
+     kPositionDoubtful},
+    {"flies",
+     {kHold},
+     kOffboard,
+     hold_over,
+     "`take_off_hold_time` is over, there is something to fly and no doubt about the position"},
     {"lands from route",
      {kOffboard},
      kLanding,
      land_or_route,
      "a landing is wanted, or the route has come to a landing waypoint"},
+    {"holds in doubt", {kOffboard}, kHold, in_doubt, "the position is in doubt", kPositionDoubtful},
     {"holds", {kOffboard}, kHold, nothing_to_fly, "there is nothing to fly"},
     {"resumes", {kLanding}, kHold, resume, "resuming is wanted"},
 });

@@ -16,6 +16,7 @@ namespace {
 constexpr double kLongestStep = 0.02;  // s, a longer gap between IMU samples is crossed in several steps
 constexpr double kImuSilence = 0.05;   // s
 constexpr double kSoonAgain = 15.0;    // s, between two resets of velocity or heading
+constexpr double kNoHeight = 1.0e3;    // m, sigma of a height without weight
 constexpr double kFreshFix = 1.0;      // s, a fix that may still replace a broken state
 
 /// A start in motion from what was last known, in full: the accelerometer's bias as well.
@@ -29,6 +30,26 @@ StartState going_on_from(const StateEstimate& last, const LocalOrigin& origin) {
   found.accelerometer_offset_B = last.accelerometer_bias_B;
   found.moving = true;
   return found;
+}
+
+/// Fills the variances.
+void weigh(GnssObservation& fix, const GnssSample& gnss, const GnssParams& wanted) {
+  const double sigma_vertical = wanted.sigma_vertical.value_or(kNoHeight);
+  Vector3 sigma_p(wanted.sigma_horizontal, wanted.sigma_horizontal, sigma_vertical);
+  Vector3 sigma_v(wanted.sigma_velocity_horizontal, wanted.sigma_velocity_horizontal,
+                  wanted.sigma_velocity_vertical);
+  const double gate_sigma = std::min(wanted.sigma_horizontal, wanted.gate_sigma);
+  Vector3 gate_sigma_p(gate_sigma, gate_sigma, sigma_vertical);
+  if (wanted.use_receiver_accuracy) {
+    const double horizontal = gnss.horizontal_accuracy;
+    const Vector3 claimed(horizontal, horizontal, gnss.vertical_accuracy);
+    sigma_p = sigma_p.cwiseMax(claimed);
+    gate_sigma_p = gate_sigma_p.cwiseMax(claimed);
+    sigma_v = sigma_v.cwiseMax(gnss.speed_accuracy);
+  }
+  fix.variance_p = sigma_p.cwiseProduct(sigma_p);
+  fix.gate_variance_p = gate_sigma_p.cwiseProduct(gate_sigma_p);
+  fix.variance_v = sigma_v.cwiseProduct(sigma_v);
 }
 
 }  // namespace
@@ -53,6 +74,9 @@ void AidedEstimator::reset() {
   previous_ = Time{0};
   innovations_ = Innovations{};
   last_fix_.reset();
+  trust_ = FixTrust{};
+  offset_N_.setZero();
+  armed_ = false;
   last_good_ = StateEstimate{};
   late_fixes_ = 0;
   recoveries_ = 0;
@@ -65,6 +89,7 @@ void AidedEstimator::begin(const StartState& found, Time now) {
   rebuild_baro_model();
   delay_line_.clear();
   heard_ = {now, now, now};
+  trust_.begin(now);
   start(found);
   running_ = true;
 }
@@ -85,12 +110,16 @@ std::string AidedEstimator::objection(const Signals& signals) const {
 }
 
 void AidedEstimator::take_over(const Signals& signals) {
+  Estimator::take_over(signals);
   const StateEstimate& last = signals.estimate;
   if (last.health == Health::kLost) alignment_.restart_in_motion();
   if (last.health == Health::kUninitialised || last.health == Health::kLost || !last.origin.known) return;
   origin_pressure_.reset();
   begin(going_on_from(last, last.origin), last.stamp);
   heard_.gnss = last.stamp - Time{std::llround(last.position_age * 1e9)};
+  trust_.begin(heard_.gnss);
+  offset_N_ = last.position_offset_N;
+  armed_ = signals.flight.fcu.armed;
   previous_ = last.stamp;
   last_good_ = last;
 }
@@ -101,6 +130,7 @@ StateEstimate AidedEstimator::estimate(const SensorFrame& frame, double dt) {
   const double step = running_ && previous_.count() > 0 ? seconds(now - previous_) : dt;
   previous_ = now;
   filter_rates(frame.imu.w_NB_B, step);
+  if (frame.status) armed_ = frame.status->armed;
   if (!running_) {
     if (alignment_.add(frame, dt, aiding())) {
       origin_pressure_ = alignment_.start().origin_pressure;
@@ -108,6 +138,7 @@ StateEstimate AidedEstimator::estimate(const SensorFrame& frame, double dt) {
     }
   } else {
     advance(frame.imu, step);
+    settle_on_ground();
     fuse(frame);
     if (!is_finite()) recover(now);
     if (imu_was_away()) seek_attitude();
@@ -194,24 +225,46 @@ void AidedEstimator::fuse_gnss(const GnssSample& gnss, Time now) {
   heard_.gnss = now;
   GnssObservation fix;
   fix.p_N = local_from_geodetic({gnss.latitude, gnss.longitude, gnss.altitude}, origin_);
+  const Vector3 as_told_N = fix.p_N - compared.p_N - slow_fix_error_N();
+  // A receiver that has stepped back is believed as before.
+  if (as_told_N.head<2>().squaredNorm() < (as_told_N - offset_N_).head<2>().squaredNorm())
+    offset_N_.setZero();
+  fix.p_N -= offset_N_;
   fix.dp_N = fix.p_N - compared.p_N;
   fix.dv_N = gnss.v_NB_N - compared.v_N;
   fix.p_N += present.p_N - compared.p_N;
   fix.v_N = gnss.v_NB_N + present.v_N - compared.v_N;
-  Vector3 sigma_p(wanted.sigma_horizontal, wanted.sigma_horizontal, wanted.sigma_vertical);
-  Vector3 sigma_v(wanted.sigma_velocity_horizontal, wanted.sigma_velocity_horizontal,
-                  wanted.sigma_velocity_vertical);
-  if (wanted.use_receiver_accuracy) {
-    const double horizontal = gnss.horizontal_accuracy;
-    sigma_p = sigma_p.cwiseMax(Vector3(horizontal, horizontal, gnss.vertical_accuracy));
-    sigma_v = sigma_v.cwiseMax(gnss.speed_accuracy);
-  }
-  fix.variance_p = sigma_p.cwiseProduct(sigma_p);
-  fix.variance_v = sigma_v.cwiseProduct(sigma_v);
+  weigh(fix, gnss, wanted);
   innovations_.p_N = fix.dp_N;
   innovations_.v_N = fix.dv_N;
   last_fix_ = fix;
   tell_delay_line([&] { correct_gnss(fix, now); });
+}
+
+void AidedEstimator::velocity_believed(Time now, double was_off) {
+  // In the meantime it may have been more than at the end.
+  trust_.velocity_believed(now, std::max(2.0 * was_off, aiding().lost_speed), aiding().gnss.silence);
+}
+
+bool AidedEstimator::blame_receiver(const Vector3& by_N, Time now) {
+  const double distance = by_N.head<2>().norm();
+  const bool far = distance > PositionWatch::kLeastJump;
+  if (!far || !trust_.blames_receiver(distance, aiding().lost_speed, now, aiding().gnss.silence))
+    return false;
+  offset_N_.head<2>() += by_N.head<2>();
+  if (last_fix_) last_fix_->p_N.head<2>() -= by_N.head<2>();
+  settle_on_ground();
+  return true;
+}
+
+void AidedEstimator::settle_on_ground() {
+  // Nothing hangs on the old place there: N stays with the vehicle, and its place on the earth is the new
+  // one.
+  if (armed_ || offset_N_.isZero(0.0)) return;
+  const GeodeticPosition place = geodetic_from_local(offset_N_, origin_);
+  origin_.latitude = place.latitude;
+  origin_.longitude = place.longitude;
+  offset_N_.setZero();
 }
 
 void AidedEstimator::recover(Time now) {
@@ -259,7 +312,8 @@ void AidedEstimator::realign_if_hopeless(const SensorFrame& frame, double dt) {
   ++realignments_;
   StartState again = alignment_.start();
   const GeodeticPosition place = geodetic_from_local(again.p_NB_N, again.origin);
-  again.p_NB_N.head<2>() = local_from_geodetic(place.latitude, place.longitude, origin_);
+  again.p_NB_N.head<2>() =
+      local_from_geodetic(place.latitude, place.longitude, origin_) - offset_N_.head<2>();
   again.p_NB_N.z() = kinematics().p_N.z();  // the barometer has gone on correcting the height
   again.origin = origin_;
   StateEstimate before;
@@ -276,7 +330,9 @@ void AidedEstimator::look_after(StateEstimate& estimate, Time now, double dt) {
                       seconds(now - heard_.gnss) > wanted.gnss.silence || dt > kImuSilence;
   const bool refusing = gates_.position.disagreeing() || gates_.velocity.disagreeing() ||
                         gates_.baro.disagreeing() || gates_.mag.disagreeing() || realigning_;
-  estimate.health = silent || refusing ? Health::kDegraded : Health::kGood;
+  estimate.position_offset_N = offset_N_;
+  estimate.position_doubtful = !offset_N_.isZero(0.0);
+  estimate.health = silent || refusing || estimate.position_doubtful ? Health::kDegraded : Health::kGood;
   estimate.position_age = std::max(0.0, seconds(now - heard_.gnss));
   estimate.position_known =
       estimate.position_age <= wanted.gnss.coast && estimate.sigma_v_B.maxCoeff() <= wanted.lost_speed;
@@ -311,6 +367,7 @@ void AidedEstimator::probe(ProbeVisitor& visit) const {
   visit("resets",
         gates_.position.resets() + gates_.velocity.resets() + gates_.baro.resets() + gates_.mag.resets(),
         "1");
+  visit("position_offset", offset_N_, "m");
   visit("late_fixes", late_fixes_, "1");
   visit("recoveries", recoveries_, "1");
   visit("realignments", realignments_, "1");

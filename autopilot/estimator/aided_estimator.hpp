@@ -6,6 +6,7 @@
 #include "autopilot/estimator/alignment.hpp"
 #include "autopilot/estimator/delay_line.hpp"
 #include "autopilot/estimator/estimator.hpp"
+#include "autopilot/estimator/fix_trust.hpp"
 #include "autopilot/estimator/gate.hpp"
 
 namespace ironbird::autopilot {
@@ -39,6 +40,7 @@ struct GnssObservation {
   Vector3 dv_N = Vector3::Zero();
   Vector3 variance_p = Vector3::Ones();
   Vector3 variance_v = Vector3::Ones();
+  Vector3 gate_variance_p = Vector3::Ones();
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -48,6 +50,7 @@ struct GnssObservation {
     visit("dv_N", self.dv_N, "m/s", "measured less predicted velocity, at the time of the fix");
     visit("variance_p", self.variance_p, "m^2", "R of the position");
     visit("variance_v", self.variance_v, "m^2/s^2", "R of the velocity");
+    visit("gate_variance_p", self.gate_variance_p, "m^2", "what the gate takes for R of the position");
   }
 };
 
@@ -89,12 +92,24 @@ class AidedEstimator : public Estimator {
   virtual void correct_baro(double difference, Time now) = 0;
   virtual void correct_gnss(const GnssObservation& fix, Time now) = 0;
   virtual Kinematics kinematics() const = 0;
+  /// What the filter knows of the receiver's slow error, m.
+  virtual Vector3 slow_fix_error_N() const { return Vector3::Zero(); }
   /// State and variances are numbers.
   virtual bool is_finite() const = 0;
   /// Fills everything but stamp, rates, origin and health.
   virtual void publish(StateEstimate& estimate) const = 0;
   /// Names and values that only this filter has.
   virtual void probe_filter(ProbeVisitor& visit) const = 0;
+
+  /// What the gates said of the last fix, for the judgement of a step.
+  /// @param was_off  by how much the velocity was reset, m/s
+  void velocity_believed(Time now, double was_off = 0.0);
+  void position_believed(Time now) { trust_.position_believed(now); }
+
+  /// The fixes have disagreed for good. When Doppler says that it is not the filter that has moved, they are
+  /// taken back by this much from now on, in flight with doubt, on the ground with the origin.
+  /// @return false: the filter is to believe them
+  bool blame_receiver(const Vector3& by_N, Time now);
 
   const BaroModel& baro_model() const { return baro_; }
   Gate& position_gate() { return gates_.position; }
@@ -135,6 +150,7 @@ class AidedEstimator : public Estimator {
   void restart(const StartState& again);
   void realign_if_hopeless(const SensorFrame& frame, double dt);
   void filter_rates(const Vector3& w_B, double dt);
+  void settle_on_ground();
   void look_after(StateEstimate& estimate, Time now, double dt);
   bool is_lost(const StateEstimate& estimate, Time now) const;
   void seek_attitude();
@@ -156,6 +172,9 @@ class AidedEstimator : public Estimator {
   Heard heard_;
   Time previous_{0};
   std::optional<GnssObservation> last_fix_;
+  FixTrust trust_;
+  Vector3 offset_N_ = Vector3::Zero();  // of the fixes, horizontal
+  bool armed_ = false;
   StateEstimate last_good_;
   int late_fixes_ = 0;
   int recoveries_ = 0;

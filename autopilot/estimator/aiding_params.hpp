@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 namespace ironbird::autopilot {
 
 // How the sensors are used: the parameters that all inertial filters share.
@@ -7,12 +9,13 @@ namespace ironbird::autopilot {
 /// Satellite positioning.
 struct GnssParams {
   double sigma_horizontal = 0.7;
-  double sigma_vertical = 1.5;
+  std::optional<double> sigma_vertical;  ///< m; none: the filter has no use for the height of a fix
   double sigma_velocity_horizontal = 0.06;
   double sigma_velocity_vertical = 0.1;
   bool use_receiver_accuracy = false;
   bool latency_compensation = true;
   double position_gate = 30.0;
+  double gate_sigma = 1.5;
   double velocity_gate = 35.0;
   double persistence = 3.0;
   double silence = 1.0;
@@ -21,7 +24,9 @@ struct GnssParams {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("sigma_horizontal", self.sigma_horizontal, "m", "error of north and east, 1 sigma", 1e-4, 1e3);
-    visit("sigma_vertical", self.sigma_vertical, "m", "error of height, 1 sigma", 1e-4, 1e3);
+    if (self.sigma_vertical) {
+      visit("sigma_vertical", *self.sigma_vertical, "m", "error of height, 1 sigma", 1e-4, 1e3);
+    }
     visit("sigma_velocity_horizontal", self.sigma_velocity_horizontal, "m/s",
           "error of the velocity north and east, 1 sigma", 1e-4, 1e2);
     visit("sigma_velocity_vertical", self.sigma_velocity_vertical, "m/s",
@@ -32,6 +37,11 @@ struct GnssParams {
           "compare a fix with the state at its own time, not at its arrival");
     visit("position_gate", self.position_gate, "1", "greatest normalised innovation squared; 0: no gate", 0.0,
           1e6);
+    visit(
+        "gate_sigma", self.gate_sigma, "m",
+        "error of north and east, 1 sigma, that the position gate allows for at most, however little weight "
+        "sigma_horizontal gives a fix",
+        1e-4, 1e3);
     visit("velocity_gate", self.velocity_gate, "1", "greatest normalised innovation squared; 0: no gate", 0.0,
           1e6);
     visit("persistence", self.persistence, "s", "after so long a disagreement the filter is reset", 0.0,

@@ -61,7 +61,7 @@ EkfStepNoise Ekf::step_noise(double h) const {
   const EkfNoiseParams& q = params().noise;
   const double scale = q.reference_scaling ? h * h : h;
   EkfStepNoise noise;
-  noise.direct << q.position, q.position, q.height, q.velocity, q.velocity, q.velocity, q.roll_pitch,
+  noise.direct << q.position, q.position, q.height, q.velocity, q.velocity, q.velocity_down, q.roll_pitch,
       q.roll_pitch, q.heading, q.gyro_bias, q.gyro_bias, q.gyro_bias;
   noise.direct *= scale;
   noise.accelerometer = square(q.accelerometer) * scale;
@@ -168,10 +168,12 @@ void Ekf::fuse_velocity(const GnssObservation& fix, Time now, Update& update) {
   const double nis = fix.dv_N.dot(S.inverse() * fix.dv_N);
   const Verdict verdict = velocity_gate().judge(nis, wanted.velocity_gate, wanted.persistence, now);
   if (verdict == Verdict::kAccept) {
+    velocity_believed(now);
     for (int axis = 0; axis < 3; ++axis) {
       update.fuse_block<6>(P_, fix.dv_N(axis), model.C.row(axis), kV, fix.variance_v(axis));
     }
   } else if (verdict == Verdict::kReset) {
+    velocity_believed(now, fix.dv_N.norm());
     decorrelate(P_, kV, 3, fix.variance_v.maxCoeff());
     x_.v_NB_B += model.C.leftCols<3>().transpose() * fix.dv_N;
   }
@@ -181,15 +183,16 @@ void Ekf::fuse_position(const GnssObservation& fix, Time now, Update& update) {
   const GnssParams& wanted = aiding().gnss;
   const Vector2 innovation = fix.dp_N.head<2>() - update.correction.segment<2>(kP);
   Eigen::Matrix2d S = P_.block<2, 2>(kP, kP);
-  S.diagonal() += fix.variance_p.head<2>();
+  S.diagonal() += fix.gate_variance_p.head<2>();
   const double nis = innovation.dot(S.inverse() * innovation);
   const Verdict verdict = position_gate().judge(nis, wanted.position_gate, wanted.persistence, now);
   if (verdict == Verdict::kAccept) {
+    position_believed(now);
     for (int axis = 0; axis < 2; ++axis) {
       update.fuse_component(P_, fix.dp_N(axis), kP + axis, 1.0, fix.variance_p(axis));
     }
-  } else if (verdict == Verdict::kReset) {
-    decorrelate(P_, kP, 2, fix.variance_p.x());
+  } else if (verdict == Verdict::kReset && !blame_receiver(fix.dp_N, now)) {
+    decorrelate(P_, kP, 2, fix.gate_variance_p.x());
     update.correction.segment<2>(kP) = fix.dp_N.head<2>();
   }
 }

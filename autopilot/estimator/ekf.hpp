@@ -17,6 +17,7 @@ struct EkfNoiseParams {
   double position = 0.0;
   double height = 0.0;
   double velocity = 1.0e-3;
+  double velocity_down = 1.0e-3;
   double roll_pitch = 1.0e-8;
   double heading = 1.0e-8;
   double gyro_bias = 1.0e-10;
@@ -29,7 +30,8 @@ struct EkfNoiseParams {
           "(Q + G Q_u G^T)(Ts/N)^2 instead of (Q + G Q_u G^T) Ts/N");
     visit("position", self.position, "m^2/s", "north and east, Q entry", 0.0, 1e6);
     visit("height", self.height, "m^2/s", "down, Q entry", 0.0, 1e6);
-    visit("velocity", self.velocity, "m^2/s^3", "Q entry", 0.0, 1e6);
+    visit("velocity", self.velocity, "m^2/s^3", "front and right, Q entry", 0.0, 1e6);
+    visit("velocity_down", self.velocity_down, "m^2/s^3", "along Bz, Q entry", 0.0, 1e6);
     visit("roll_pitch", self.roll_pitch, "rad^2/s", "Q entry", 0.0, 1e6);
     visit("heading", self.heading, "rad^2/s", "Q entry", 0.0, 1e6);
     visit("gyro_bias", self.gyro_bias, "rad^2/s^3", "Q entry", 0.0, 1e6);

@@ -194,10 +194,12 @@ void ErrorStateFilter::fuse_velocity(const GnssObservation& fix, Time now, Updat
   const double nis = fix.dv_N.dot(S.inverse() * fix.dv_N);
   const Verdict verdict = velocity_gate().judge(nis, wanted.velocity_gate, wanted.persistence, now);
   if (verdict == Verdict::kAccept) {
+    velocity_believed(now);
     for (int axis = 0; axis < 3; ++axis) {
       update.fuse_component(P_, fix.dv_N(axis), kV + axis, 1.0, fix.variance_v(axis));
     }
   } else if (verdict == Verdict::kReset) {
+    velocity_believed(now, fix.dv_N.norm());
     decorrelate(P_, kV, 3, fix.variance_v.maxCoeff());
     update.correction.segment<3>(kV) = fix.dv_N;
   }
@@ -211,18 +213,21 @@ void ErrorStateFilter::fuse_position(const GnssObservation& fix, Time now, Updat
   const Vector3 left = innovation - update.correction.segment<3>(kP) - update.correction.segment<3>(kW);
   Matrix3 S =
       P_.block<3, 3>(kP, kP) + P_.block<3, 3>(kP, kW) + P_.block<3, 3>(kW, kP) + P_.block<3, 3>(kW, kW);
-  S.diagonal() += fix.variance_p;
+  S.diagonal() += fix.gate_variance_p;
   const double nis = left.dot(S.inverse() * left);
   const Verdict verdict = position_gate().judge(nis, wanted.position_gate, wanted.persistence, now);
   if (verdict == Verdict::kAccept) {
+    position_believed(now);
     for (int axis = 0; axis < 3; ++axis) {
       const ErrorState::Vector PCt = P_.col(kP + axis) + P_.col(kW + axis);
       update.fuse(P_, innovation(axis), PCt, PCt(kP + axis) + PCt(kW + axis),
                   update.correction(kP + axis) + update.correction(kW + axis), fix.variance_p(axis));
     }
   } else if (verdict == Verdict::kReset) {
-    decorrelate(P_, kP, 2, fix.variance_p.x());
-    update.correction.segment<2>(kP) = innovation.head<2>() - update.correction.segment<2>(kW);
+    if (!blame_receiver(innovation, now)) {
+      decorrelate(P_, kP, 2, fix.variance_p.x());
+      update.correction.segment<2>(kP) = innovation.head<2>() - update.correction.segment<2>(kW);
+    }
     // Height has the barometer as well: there it is the receiver that has stepped.
     decorrelate(P_, kW + 2, 1, fix.variance_p.z());
     update.correction(kW + 2) = innovation.z() - update.correction(kP + 2);

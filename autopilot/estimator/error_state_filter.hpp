@@ -91,6 +91,7 @@ class ErrorStateFilter : public Tunable<AidedEstimator, ErrorStateParams> {
   void correct_baro(double difference, Time now) override;
   void correct_gnss(const GnssObservation& fix, Time now) override;
   Kinematics kinematics() const override { return {x_.p_NB_N, x_.v_NB_N}; }
+  Vector3 slow_fix_error_N() const override { return x_.gnss_walk_N; }
   bool is_finite() const override;
   void publish(StateEstimate& estimate) const override;
   void probe_filter(ProbeVisitor& visit) const override;

@@ -1,8 +1,11 @@
 #include "autopilot/estimator/estimator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+
+#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 
@@ -18,6 +21,8 @@ constexpr double kLeastPressure = 1.0e3;      // Pa
 constexpr double kMostPressure = 2.0e5;       // Pa
 
 constexpr Time kLongestHold = std::chrono::milliseconds(200);  // of an IMU sample, in place of unsound ones
+constexpr double kCalming = 0.02;                              // s, over which vibration is averaged away
+constexpr double kRateDies = 0.05;                             // s, of an attitude loop
 constexpr Time kFixesAnew = std::chrono::seconds(1);           // so far back only when the receiver restarts
 
 /// Every component is a number within +-limit. False for NaN.
@@ -107,7 +112,11 @@ void Estimator::collect(SensorFrame frame, Time now) {
 }
 
 void Estimator::lose() {
-  if (last_.health != Health::kUninitialised) last_.health = Health::kLost;
+  if (last_.health == Health::kUninitialised) return;
+  last_.health = Health::kLost;
+  // Nothing follows how it turns.
+  last_.w_NB_B.setZero();
+  last_.sigma_attitude.setConstant(std::numbers::pi);
 }
 
 const StateEstimate& Estimator::run(const SensorFrame& frame) {
@@ -128,21 +137,35 @@ const StateEstimate& Estimator::run(const SensorFrame& frame) {
   double dt = 0.0;
   if (!divider_.due(now, period(), dt)) return last_;
 
-  if (imu_count_ > 0) {
-    vetted_.imu.f_B = f_sum_B_ / imu_count_;
-    vetted_.imu.w_NB_B = w_sum_B_ / imu_count_;
-  }
+  merge_imu(dt);
   StateEstimate fresh = estimate(vetted_, dt);
   if (is_finite(fresh)) {
+    watch_.observe(fresh);
     last_ = fresh;
     if (imu_held_ && last_.health == Health::kGood) last_.health = Health::kDegraded;
   } else {
     ++non_finite_estimates_;
-    last_.health = Health::kLost;
+    lose();
     last_.stamp = now;
   }
   forget_samples();
   return last_;
+}
+
+void Estimator::merge_imu(double dt) {
+  ImuSample& imu = vetted_.imu;
+  if (imu_count_ == 0) {
+    // A rate that is only held is fed back as if nothing were done about it, and tips the vehicle.
+    w_calm_B_ *= std::max(0.0, 1.0 - dt / kRateDies);
+    imu.f_B = f_calm_B_;
+    imu.w_NB_B = w_calm_B_;
+    return;
+  }
+  imu.f_B = f_sum_B_ / imu_count_;
+  imu.w_NB_B = w_sum_B_ / imu_count_;
+  const double kept = dt > 0.0 ? std::max(0.0, 1.0 - dt / kCalming) : 0.0;
+  f_calm_B_ = kept * f_calm_B_ + (1.0 - kept) * imu.f_B;
+  w_calm_B_ = kept * w_calm_B_ + (1.0 - kept) * imu.w_NB_B;
 }
 
 void Estimator::forget_samples() {
@@ -156,15 +179,22 @@ void Estimator::forget_samples() {
   imu_was_away_ = false;
 }
 
+void Estimator::take_over(const Signals& signals) {
+  watch_.go_on_from(signals.estimate);
+}
+
 void Estimator::reset() {
   last_ = StateEstimate{};
   forget_samples();
   vetted_ = SensorFrame{};
+  f_calm_B_.setZero();
+  w_calm_B_.setZero();
   imu_known_ = false;
   imu_heard_ = Time{0};
   newest_fix_.reset();
   divider_.reset();
   clock_ = FrameClock{};
+  watch_ = PositionWatch{};
   refused_frames_ = 0;
   dropped_samples_ = 0;
   non_finite_estimates_ = 0;

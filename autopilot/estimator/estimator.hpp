@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "autopilot/estimator/frame_clock.hpp"
+#include "autopilot/estimator/position_watch.hpp"
 #include "autopilot/module/module.hpp"
 #include "autopilot/types/sensor_frame.hpp"
 #include "autopilot/types/state_estimate.hpp"
@@ -14,10 +15,11 @@ class Estimator : public Module {
  public:
   /// One step. Refuses frames whose stamps do not go on from the last (FrameClock); after too many in a row
   /// the estimate is lost. Drops samples that are not finite or physically absurd, and a fix that was there
-  /// before: a slower sensor is then silent, the IMU keeps its last good sample and the estimate is marked
-  /// degraded, and lost after 0.2 s. Keeps the last finite estimate, marked lost, when the work function
-  /// returns one that is not finite. With a period, the IMU samples between two works are averaged, and the
-  /// newest sample of each slower sensor waits for the next work.
+  /// before: a slower sensor is then silent. In place of the IMU stand its specific force of late and a rate
+  /// that dies away as the loops make it; the estimate is marked degraded, and lost after 0.2 s. Keeps the
+  /// last finite estimate, marked lost, when the work function returns one that is not finite. Counts jumps
+  /// of the position. With a period, the IMU samples between two works are averaged, and the newest sample of
+  /// each slower sensor waits for the next work.
   /// @param frame  frames in stamp order
   /// @return the estimate at the stamp of the last work; valid until the next call
   const StateEstimate& run(const SensorFrame& frame);
@@ -36,6 +38,9 @@ class Estimator : public Module {
 
   void reset() override;
 
+  /// A jump from the estimate of the predecessor is counted as any other.
+  void take_over(const Signals& signals) override;
+
  protected:
   /// The work. @param frame  all its samples are finite: `run` drops those that are not
   /// @param dt  time since the previous call, s, >= 0; 0 on the first
@@ -47,6 +52,7 @@ class Estimator : public Module {
  private:
   void collect(SensorFrame frame, Time now);
   int keep_new_fix(const std::optional<GnssSample>& newer);
+  void merge_imu(double dt);
   void lose();
   void forget_samples();
 
@@ -55,6 +61,8 @@ class Estimator : public Module {
   Vector3 f_sum_B_ = Vector3::Zero();
   Vector3 w_sum_B_ = Vector3::Zero();
   int imu_count_ = 0;
+  Vector3 f_calm_B_ = Vector3::Zero();  // of the sound samples, low-passed
+  Vector3 w_calm_B_ = Vector3::Zero();
   bool imu_known_ = false;
   bool imu_held_ = false;
   bool imu_was_away_ = false;
@@ -62,6 +70,7 @@ class Estimator : public Module {
   std::optional<Time> newest_fix_;
   Divider divider_;
   FrameClock clock_;
+  PositionWatch watch_;
   int refused_frames_ = 0;
   int dropped_samples_ = 0;
   int non_finite_estimates_ = 0;

@@ -41,6 +41,7 @@ void SequencedManager::reset() {
   now_ = Time{0};
   revision_ = released_ = holds_ = newest_id_ = size_ = 0;
   target_ = Waypoint{};
+  position_resets_ = 0;
 }
 
 void SequencedManager::wait_on_ground() {
@@ -57,6 +58,7 @@ void SequencedManager::take_over(const Signals& signals) {
   released_ = signals.route.released;
   holds_ = signals.route.holds;
   size_ = size_of(signals.route);
+  position_resets_ = signals.estimate.position_resets;
   for (const Waypoint& waypoint : signals.route.waypoints) newest_id_ = std::max(newest_id_, waypoint.id);
   index_ = std::min(last.leg, size_);
   if (index_ < size_) target_ = signals.route.waypoints[index_];
@@ -102,6 +104,7 @@ TrajectoryPoint SequencedManager::follow(const Route& route, const StateEstimate
     return here;
   }
   pass_time(since_last);
+  move_with(estimate);
   if (mode_ == Mode::kAway) begin(route, estimate);
   step(route, estimate);
   return point_of(reference());
@@ -113,6 +116,15 @@ void SequencedManager::pass_time(Time since_last) {
   const bool moves = mode_ == Mode::kBrake || on_motion_;
   if (moves && !rules_.never_waits)
     began_ += std::max(since_last - std::max(kLongestStep, period()), Time{0});
+}
+
+void SequencedManager::move_with(const StateEstimate& estimate) {
+  const bool jumped = estimate.position_resets != position_resets_;
+  position_resets_ = estimate.position_resets;
+  if (!jumped || mode_ == Mode::kAway) return;
+  MotionPoint from = reference();
+  from.p_N += estimate.position_reset_N;
+  brake(from);
 }
 
 void SequencedManager::notice(const Route& route) {

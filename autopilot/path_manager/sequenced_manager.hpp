@@ -20,6 +20,8 @@ namespace ironbird::autopilot {
 /// when the companion begins to fly.
 /// * A hold on the spot interrupts a hold at a waypoint, which then goes on where it was; asked for again, it
 /// begins anew.
+/// * When the estimated position jumps, the reference jumps along, is brought to rest and makes its way from
+/// there.
 /// * When the estimates stop coming for longer than kLongestStep, the motion waits with them.
 /// ROScopter paper, path manager; holds, landing, editing under way and overrides are ours.
 class SequencedManager : public PathManager {
@@ -71,6 +73,7 @@ class SequencedManager : public PathManager {
   void wait_on_ground();
   void pass_time(Time since_last);
   void notice(const Route& route);
+  void move_with(const StateEstimate& estimate);
   void find_place(const Route& route);
   void begin(const Route& route, const StateEstimate& estimate);
   void step(const Route& route, const StateEstimate& estimate);
@@ -110,6 +113,7 @@ class SequencedManager : public PathManager {
   std::uint32_t holds_ = 0;
   std::uint32_t newest_id_ = 0;
   std::uint32_t size_ = 0;
+  std::uint32_t position_resets_ = 0;
   Waypoint target_;
 };
 

@@ -33,18 +33,20 @@ constexpr std::array<std::pair<FlightPhase, std::string_view>, 7> enumerators(Fl
 
 /// Why the phase changed, when neither operator, pilot nor route asked for it.
 enum class PhaseCause : std::uint8_t {
-  kPlanned,          ///< somebody asked for it, or it is the next step of what was asked for
-  kPositionUnknown,  ///< the horizontal position is no longer known
-  kPositionKnown,    ///< it is known again
-  kEstimateLost,     ///< not even height and attitude are to be trusted
-  kEstimateBack,     ///< they are again, soon enough to land
-  kRestsWithPilot    ///< the vehicle came to rest while pilot or failsafe had it
+  kPlanned,           ///< somebody asked for it, or it is the next step of what was asked for
+  kPositionUnknown,   ///< the horizontal position is no longer known
+  kPositionKnown,     ///< it is known again
+  kPositionDoubtful,  ///< the satellites contradict it
+  kEstimateLost,      ///< not even height and attitude are to be trusted
+  kEstimateBack,      ///< they are again, soon enough to land
+  kRestsWithPilot     ///< the vehicle came to rest while pilot or failsafe had it
 };
 
-constexpr std::array<std::pair<PhaseCause, std::string_view>, 6> enumerators(PhaseCause) {
+constexpr std::array<std::pair<PhaseCause, std::string_view>, 7> enumerators(PhaseCause) {
   return {{{PhaseCause::kPlanned, "planned"},
            {PhaseCause::kPositionUnknown, "position_unknown"},
            {PhaseCause::kPositionKnown, "position_known"},
+           {PhaseCause::kPositionDoubtful, "position_doubtful"},
            {PhaseCause::kEstimateLost, "estimate_lost"},
            {PhaseCause::kEstimateBack, "estimate_back"},
            {PhaseCause::kRestsWithPilot, "rests_with_pilot"}}};

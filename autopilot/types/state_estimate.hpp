@@ -65,6 +65,10 @@ struct StateEstimate {
   LocalOrigin origin;
   bool position_known = true;
   double position_age = 0.0;
+  bool position_doubtful = false;
+  Vector3 position_offset_N = Vector3::Zero();
+  std::uint32_t position_resets = 0;
+  Vector3 position_reset_N = Vector3::Zero();
   Health health = Health::kUninitialised;
 
   /// Velocity over ground in N, m/s.
@@ -90,6 +94,13 @@ struct StateEstimate {
     visit("position_known", self.position_known, "1",
           "horizontal position and velocity can be flown on; false: height and attitude only");
     visit("position_age", self.position_age, "s", "since the horizontal position was last measured");
+    visit("position_doubtful", self.position_doubtful, "1",
+          "the satellite fixes have stepped: p_NB_N is dead reckoning's, where N lies on the earth is "
+          "doubtful");
+    visit("position_offset_N", self.position_offset_N, "m", "by how much they have stepped, taken off them");
+    visit("position_resets", self.position_resets, "1",
+          "how often the horizontal position jumped, by a reset or a large correction");
+    visit("position_reset_N", self.position_reset_N, "m", "how far it jumped the last time");
     visit("health", self.health, "1", "how far the estimate may be trusted");
   }
 };

@@ -55,6 +55,7 @@ void EventNames::add_flight(const Scenario& scenario) {
   for (const auto& [value, name] : enumerators(autopilot::Health{}))
     names_.push_back({"health", std::string(name)});
   for (const std::string_view name : kGroundEvents) names_.push_back({"ground", std::string(name)});
+  for (const std::string_view name : kDoubtEvents) names_.push_back({"position", std::string(name)});
   if (!somebody_arms(scenario)) return;
   names_.push_back({"arming", "armed"});
   names_.push_back({"arming", "unarmed"});
@@ -113,6 +114,8 @@ bool EventNames::is_waypoint(std::string_view name) const {
 }
 
 bool EventNames::known(const std::string& name, Waiting waiting) const {
+  const auto is_name = [&](std::string_view one) { return one == name; };
+  if (waiting == Waiting::kCheck && std::ranges::any_of(kPositionEvents, is_name)) return true;
   if (name.starts_with("fcu:") || name.starts_with("refused:") || is_waypoint(name)) return true;
   return std::any_of(names_.begin(), names_.end(), [&](const Name& n) {
     return name == n.text || (waiting == Waiting::kCheck && name == n.kind) || name == n.kind + ":" + n.text;
@@ -121,6 +124,7 @@ bool EventNames::known(const std::string& name, Waiting waiting) const {
 
 std::vector<std::string> EventNames::spoken(Waiting waiting) const {
   std::vector<std::string> all;
+  if (waiting == Waiting::kCheck) all.assign(kPositionEvents.begin(), kPositionEvents.end());
   for (const Name& name : names_) {
     // What begins and what ends a fault have one text: with its kind the end is told from the beginning.
     all.push_back(name.kind == "fault_end" ? name.kind + ":" + name.text : name.text);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "autopilot/math/local_map.hpp"
+#include "scenarios/requirements/number_text.hpp"
+
 namespace ironbird::scenarios {
 
 namespace {
@@ -31,7 +34,7 @@ bool is_of_the_flight(std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   return is_one_of(enumerators(autopilot::FlightPhase{})) || is_one_of(enumerators(autopilot::Health{})) ||
-         name.starts_with("waypoint_") || has(kGroundEvents) || has(kOthers);
+         name.starts_with("waypoint_") || has(kGroundEvents) || has(kDoubtEvents) || has(kOthers);
 }
 
 bool is_called(const RunEvent& event, std::string_view name) {
@@ -77,12 +80,29 @@ void EventDetector::report(const Seen& fresh, double time, Timeline& timeline) {
     timeline.add(time, "phase", name_of(fresh.phase));
   }
   if (fresh.health != seen_.health) timeline.add(time, "health", name_of(fresh.health));
+  if (fresh.doubtful != seen_.doubtful) timeline.add(time, "position", fresh.doubtful ? "doubtful" : "sure");
+  if (fresh.position_resets > seen_.position_resets) {
+    timeline.add(time, "position_reset", with_unit(signals_.estimate.position_reset_N.norm(), "m"));
+  }
   const std::uint32_t counted_from = fresh.reached < seen_.reached ? 0 : seen_.reached;
   for (std::uint32_t i = counted_from + 1; i <= fresh.reached; ++i) {
     timeline.add(time, "waypoint", "waypoint_" + std::to_string(i));
   }
   if (fresh.finished && !seen_.finished) timeline.add(time, "waypoint", "route_finished");
   seen_ = fresh;
+}
+
+void EventDetector::look_at_places(double time, Timeline& timeline) {
+  const autopilot::StateEstimate& x = signals_.estimate;
+  if (x.position_offset_N != offset_N_ && x.position_doubtful) {
+    timeline.add(time, "gnss_step", with_unit((x.position_offset_N - offset_N_).norm(), "m"));
+  }
+  offset_N_ = x.position_offset_N;
+  const bool same_place = x.origin.latitude == origin_.latitude && x.origin.longitude == origin_.longitude;
+  if (same_place && x.origin.known == origin_.known) return;
+  const auto moved_N = autopilot::local_from_geodetic(x.origin.latitude, x.origin.longitude, origin_);
+  if (origin_.known && x.origin.known) timeline.add(time, "origin_moved", with_unit(moved_N.norm(), "m"));
+  origin_ = x.origin;
 }
 
 }  // namespace ironbird::scenarios

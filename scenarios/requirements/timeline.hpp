@@ -12,6 +12,13 @@
 
 namespace ironbird::scenarios {
 
+/// Events about the estimated position whose text is a distance: they are found by their kind.
+inline constexpr std::array<std::string_view, 3> kPositionEvents{"gnss_step", "position_reset",
+                                                                 "origin_moved"};
+
+/// Whether the position is in doubt.
+inline constexpr std::array<std::string_view, 2> kDoubtEvents{"doubtful", "sure"};
+
 /// What the pilot sees of the ground: the vehicle leaves it, comes down on it well, or otherwise.
 inline constexpr std::array<std::string_view, 3> kGroundEvents{"lifted_off", "landed", "crashed"};
 
@@ -56,7 +63,9 @@ class Timeline {
 
 /// Turns changes of the autopilot's signals into events: phases of flight (`offboard`), arming (`armed`,
 /// `unarmed`), waypoints (`waypoint_1` for the first one reached, `route_finished`), health of the estimate
-/// (`degraded`), and why the phase changed when nobody asked for it (`cause:position_unknown`).
+/// (`degraded`), doubt about the position (`doubtful`, `sure`; by how much the fixes have stepped is
+/// `gnss_step`), a position that jumps (`position_reset`), an origin that moves (`origin_moved`), and why the
+/// phase changed when nobody asked for it (`cause:position_unknown`).
 ///
 /// A health that worsens is an event at once; one that betters, when it has lasted half a second: a sensor
 /// that fails now and then makes one event, not hundreds.
@@ -70,6 +79,7 @@ class EventDetector {
     Seen fresh = now();
     if (fresh.health != seen_.health || betters_) fresh.health = settled(fresh.health, time);
     if (!(fresh == seen_)) report(fresh, time, timeline);
+    look_at_places(time, timeline);
   }
 
  private:
@@ -78,20 +88,31 @@ class EventDetector {
     autopilot::PhaseCause cause = autopilot::PhaseCause::kPlanned;
     bool armed = false;
     autopilot::Health health = autopilot::Health::kUninitialised;
+    bool doubtful = false;
+    std::uint32_t position_resets = 0;
     std::uint32_t reached = 0;
     bool finished = false;
     bool operator==(const Seen&) const = default;
   };
 
   Seen now() const {
-    return {signals_.flight.phase,    signals_.flight.cause,       signals_.flight.fcu.armed,
-            signals_.estimate.health, signals_.trajectory.reached, signals_.trajectory.finished};
+    return {signals_.flight.phase,
+            signals_.flight.cause,
+            signals_.flight.fcu.armed,
+            signals_.estimate.health,
+            signals_.estimate.position_doubtful,
+            signals_.estimate.position_resets,
+            signals_.trajectory.reached,
+            signals_.trajectory.finished};
   }
   autopilot::Health settled(autopilot::Health health, double time);
   void report(const Seen& fresh, double time, Timeline& timeline);
+  void look_at_places(double time, Timeline& timeline);
 
   const autopilot::Signals& signals_;
   Seen seen_;
+  autopilot::Vector3 offset_N_ = autopilot::Vector3::Zero();
+  autopilot::LocalOrigin origin_;
   bool betters_ = false;
   double better_since_ = 0.0;  // s
 };

@@ -69,8 +69,73 @@ TEST_F(CascadedControllerTest, DoesNotTakeASlowDescentForTheGround) {
   EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, 0.0);
 }
 
-TEST_F(CascadedControllerTest, SaysNothingOnAnEstimateThatIsLostAndLandsWhenItIsSoonBack) {
+TEST_F(CascadedControllerTest, StaysLevelInTheAirForAWhileWithoutAnEstimate) {
+  const double weight = controller_.params().mass * controller_.params().gravity;
   fly_offboard();
+  estimate_.health = Health::kLost;
+  estimate_.roll = 0.1;
+  // WHEN it still knows how it leans THEN it turns back, with nearly its weight as thrust
+  auto command = std::get<PassThroughCommand>(run());
+  EXPECT_LT(command.M_B.x(), 0.0);
+  EXPECT_NEAR(command.thrust / weight, 0.97, 0.01);
+  // WHEN it does not THEN it does not turn
+  estimate_.sigma_attitude.setConstant(3.0);
+  command = std::get<PassThroughCommand>(run());
+  EXPECT_EQ(command.M_B.norm(), 0.0);
+  EXPECT_NEAR(command.thrust / weight, 0.97, 0.01);
+  // AND after `silence_patience`, or when the pilot has it, it says nothing
+  status_.rc_override = 1;
+  EXPECT_TRUE(is_silent());
+  status_.rc_override = 0;
+  EXPECT_FALSE(is_silent());
+  run_for(controller_.params().silence_patience);
+  EXPECT_TRUE(is_silent());
+}
+
+TEST_F(CascadedControllerTest, HoldsAPositionInDoubtThenLandsThere) {
+  fly_offboard();
+  estimate_.position_doubtful = true;
+  run();
+  EXPECT_EQ(controller_.phase(), kHold);
+  EXPECT_EQ(controller_.cause(), PhaseCause::kPositionDoubtful);
+  run_for(controller_.params().doubt_patience - 0.1);
+  EXPECT_EQ(controller_.phase(), kHold);
+  run_for(0.2);
+  EXPECT_EQ(controller_.phase(), kLanding);
+  // WHEN the operator resumes THEN it holds as long again
+  ask(FlightWish::kResume);
+  run_for(controller_.params().doubt_patience - 0.1);
+  EXPECT_EQ(controller_.phase(), kHold);
+  // WHEN the doubt is over THEN it flies on
+  estimate_.position_doubtful = false;
+  run();
+  EXPECT_EQ(controller_.phase(), kOffboard);
+}
+
+TEST_F(CascadedControllerTest, ComesToRestWithoutALurchWhenItsPositionIsInDoubt) {
+  fly_offboard();
+  estimate_.v_NB_B.x() = 3.0;
+  estimate_.position_doubtful = true;
+  const auto command = std::get<PassThroughCommand>(run());
+  EXPECT_EQ(controller_.phase(), kHold);
+  EXPECT_LT(command.M_B.norm(), 0.05) << "N m";
+}
+
+TEST_F(CascadedControllerTest, DoesNotChaseAPositionThatJumps) {
+  fly_offboard();
+  run(NoSetpoint{});
+  ASSERT_EQ(controller_.phase(), kHold);
+  const auto calm = std::get<PassThroughCommand>(run(NoSetpoint{}));
+  estimate_.p_NB_N.x() += 300.0;
+  estimate_.position_reset_N.x() = 300.0;
+  ++estimate_.position_resets;
+  const auto after = std::get<PassThroughCommand>(run(NoSetpoint{}));
+  EXPECT_LT((after.M_B - calm.M_B).norm(), 1e-9);
+}
+
+TEST_F(CascadedControllerTest, SaysNothingNearTheGroundOnALostEstimateAndLandsWhenItIsSoonBack) {
+  fly_offboard();
+  estimate_.p_NB_N.z() = -0.9;
   estimate_.health = Health::kLost;
   EXPECT_TRUE(is_silent());
   EXPECT_EQ(controller_.phase(), kSilent);
@@ -102,7 +167,9 @@ TEST_F(CascadedControllerTest, NeverSendsAValueThatIsNotFinite) {
   for (double* value :
        {&estimate_.roll, &estimate_.p_NB_N.x(), &estimate_.v_NB_B.y(), &estimate_.w_NB_B.z()}) {
     *value = nan;
-    EXPECT_TRUE(is_silent());
+    const auto blind = std::get<PassThroughCommand>(run());
+    EXPECT_TRUE(blind.M_B.allFinite() && std::isfinite(blind.thrust));
+    EXPECT_EQ(controller_.phase(), kSilent);
     good.stamp = estimate_.stamp;
     estimate_ = good;
     const auto command = std::get<PassThroughCommand>(run());

@@ -38,7 +38,7 @@ template <class Of>
 void for_all_combinations(const Of& of) {
   PhaseInputs in;
   const unsigned combinations = 1U << set_bits(in, 0);
-  ASSERT_EQ(combinations, 1U << 13U);
+  ASSERT_EQ(combinations, 1U << 15U);
   for (const auto& [from, name] : enumerators(FlightPhase{})) {
     for (unsigned number = 0; number < combinations; ++number) {
       set_bits(in, number);
@@ -55,7 +55,8 @@ TEST(PhaseWalkTest, LeavesTheGroundOnlyWhenATakeOffIsWantedArmedWithEstimateAndP
     if (!stands(w)) return;
     EXPECT_TRUE(w.next.phase == w.from || w.next.phase == kDisarmed || w.next.phase == kTakeOff);
     if (w.next.phase != kTakeOff) return;
-    EXPECT_TRUE(w.in.take_off_wanted && w.in.armed && w.in.estimate_usable && w.in.position_known);
+    EXPECT_TRUE(w.in.take_off_wanted && w.in.armed && w.in.estimate_usable && w.in.position_known &&
+                !w.in.position_doubtful);
   });
 }
 
@@ -98,11 +99,12 @@ TEST(PhaseWalkTest, NeverAimsAtAPlaceWithoutAPosition) {
   });
 }
 
-TEST(PhaseWalkTest, FliesTheSetpointOnlyAfterAHoldAndWhenThereIsOne) {
+TEST(PhaseWalkTest, FliesTheSetpointOnlyAfterAHoldWhenThereIsOneAndNoDoubt) {
   for_all_combinations([](const Walked& w) {
     if (w.next.phase != kOffboard) return;
     EXPECT_TRUE(w.in.setpoint_valid);
     EXPECT_TRUE(w.from == kOffboard || (w.from == kHold && w.in.hold_over));
+    EXPECT_FALSE(w.in.position_doubtful);
   });
 }
 
@@ -142,7 +144,7 @@ TEST(PhaseWalkTest, GivesACauseOnlyForAChange) {
   });
 }
 
-TEST(WishWalkTest, GrantsATakeOffOnlyStandingArmedInNobodyElsesHandsWithEstimateAndPosition) {
+TEST(WishWalkTest, GrantsATakeOffOnlyStandingArmedInNobodyElsesHandsWithEstimateAndSurePosition) {
   WishConditions now;
   const unsigned combinations = 1U << set_bits(now, 0);
   for (const auto& [phase, name] : enumerators(FlightPhase{})) {
@@ -150,7 +152,8 @@ TEST(WishWalkTest, GrantsATakeOffOnlyStandingArmedInNobodyElsesHandsWithEstimate
       now.phase = phase;
       set_bits(now, number);
       const bool ready = now.armed && !now.failsafe && !now.pilot_holds && now.estimate_usable &&
-                         now.position_known && (phase == kDisarmed || now.on_ground);
+                         now.position_known && !now.position_doubtful &&
+                         (phase == kDisarmed || now.on_ground);
       EXPECT_EQ(why_not(FlightWish::kTakeOff, now).empty(), ready) << name << " 0x" << std::hex << number;
     }
   }

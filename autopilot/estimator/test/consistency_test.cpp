@@ -112,6 +112,7 @@ void set_up(TestedEkf& filter, Hidden& hidden, Noise& noise) {
   EkfParams params;
   params.aiding = matched_aiding();
   params.noise.velocity = 0.0;
+  params.noise.velocity_down = 0.0;
   params.noise.roll_pitch = 0.0;
   params.noise.heading = 0.0;
   params.noise.gyro_bias = 0.0;
@@ -232,6 +233,7 @@ void correct_all(Filter& filter, const FakeTruth& truth, const Hidden& hidden, N
   fix.dp_N = fix.p_N - filter.kinematics().p_N;
   fix.dv_N = fix.v_N - filter.kinematics().v_N;
   fix.variance_p.setConstant(kGnssSigma * kGnssSigma);
+  fix.gate_variance_p = fix.variance_p;
   fix.variance_v.setConstant(kVelocitySigma * kVelocitySigma);
   filter.correct_gnss(fix, Time{0});
 }

@@ -6,6 +6,7 @@
 
 #include "autopilot/estimator/external_pose_estimator.hpp"
 #include "autopilot/math/euler_zyx.hpp"
+#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 namespace {
@@ -52,6 +53,55 @@ TEST(EstimatorTest, FindsTheStepFromIntegerStamps) {
   EXPECT_EQ(listener.dt, 0.0);
   listener.run(frame_at(107));
   EXPECT_NEAR(listener.dt, 0.007, kRoundOff);
+}
+
+TEST(EstimatorTest, CountsJumpsOfThePositionAndSaysHowFar) {
+  Listener listener;
+  EXPECT_EQ(listener.run(frame_at(100)).position_resets, 0U) << "the first is no jump";
+  listener.answer = 1.9;
+  EXPECT_EQ(listener.run(frame_at(105)).position_resets, 0U) << "a small correction neither";
+  listener.answer = 14.0;
+  EXPECT_EQ(listener.run(frame_at(110)).position_resets, 1U);
+  const StateEstimate& last = listener.run(frame_at(115));
+  EXPECT_EQ(last.position_resets, 1U);
+  EXPECT_NEAR(last.position_reset_N.x(), 12.1, kRoundOff);
+}
+
+TEST(EstimatorTest, CountsTheJumpFromTheEstimateOfItsPredecessor) {
+  Signals signals;
+  signals.estimate.health = Health::kGood;
+  signals.estimate.stamp = milliseconds(95);
+  signals.estimate.position_resets = 4;
+  signals.estimate.p_NB_N.x() = 30.0;
+  Listener listener;
+  listener.take_over(signals);
+  const StateEstimate& first = listener.run(frame_at(100));
+  EXPECT_EQ(first.position_resets, 5U);
+  EXPECT_NEAR(first.position_reset_N.x(), -29.0, kRoundOff);
+}
+
+TEST(EstimatorTest, TakesTheTurnToDieAwayWhileTheImuSendsNoNumbers) {
+  Listener listener;
+  for (int ms = 100; ms <= 200; ms += 5) {
+    SensorFrame frame = frame_at(ms);
+    frame.imu.w_NB_B.x() = ms < 200 ? 1.0 : 1.2;  // shaken at last
+    listener.run(frame);
+  }
+  double before = 1.06;
+  for (int ms = 205; ms <= 400; ms += 5) {
+    SensorFrame frame = frame_at(ms);
+    frame.imu.w_NB_B.x() = kNan;
+    listener.run(frame);
+    EXPECT_LT(listener.heard.imu.w_NB_B.x(), before);
+    EXPECT_NEAR(listener.heard.imu.f_B.z(), -9.81, kRoundOff);
+    before = listener.heard.imu.w_NB_B.x();
+  }
+  EXPECT_LT(before, 0.05);
+  SensorFrame frame = frame_at(405);
+  frame.imu.w_NB_B.x() = kNan;
+  const StateEstimate& lost = listener.run(frame);
+  EXPECT_EQ(lost.health, Health::kLost);
+  EXPECT_GT(lost.sigma_attitude.minCoeff(), 3.0) << "rad: nothing follows how it turns";
 }
 
 TEST(EstimatorTest, RefusesAnOlderFrameAndCountsIt) {

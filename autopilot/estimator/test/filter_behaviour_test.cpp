@@ -100,21 +100,6 @@ TEST_P(FilterTest, DegradesWhenCompassOrBarometerAreSilent) {
   expect_good();
 }
 
-TEST_P(FilterTest, RefusesAGnssJumpThenBelievesItWhenItPersists) {
-  // GIVEN a good estimate
-  fly(40.0);
-  // WHEN all fixes jump by 100 m
-  sensors.gnss_jump = {100.0, 0.0, 0.0};
-  fly(1.5);
-  // THEN they are refused at first
-  EXPECT_LT(horizontal_error(), kGoodPosition);
-  EXPECT_EQ(x.health, Health::kDegraded);
-  // AND believed when they insist
-  fly(6.0);
-  EXPECT_NEAR(x.p_NB_N.x() - sensors.truth().p_N.x(), 100.0, 2.0);
-  EXPECT_EQ(x.health, Health::kGood);
-}
-
 TEST_P(FilterTest, IsNotMovedByAShortGnssJump) {
   fly(40.0);
   sensors.gnss_jump = {0.0, -60.0, 0.0};

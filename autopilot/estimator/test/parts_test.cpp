@@ -6,6 +6,7 @@
 
 #include "autopilot/estimator/alignment.hpp"
 #include "autopilot/estimator/delay_line.hpp"
+#include "autopilot/estimator/fix_trust.hpp"
 #include "autopilot/estimator/gate.hpp"
 #include "autopilot/estimator/scalar_update.hpp"
 #include "autopilot/math/euler_zyx.hpp"
@@ -43,6 +44,22 @@ TEST(ScalarUpdateTest, EqualsTheJointUpdateInJosephForm) {
   EXPECT_LT((sequential - joint).norm(), 1.0e-10) << "P of order 10, condition of S of order 100";
   EXPECT_LT((update.correction - Vector6(K * innovation)).norm(), 1.0e-10);
   EXPECT_EQ((sequential - sequential.transpose()).cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(FixTrustTest, BlamesTheReceiverUnlessTheFilterMayHaveDriftedSoFar) {
+  constexpr double kSilence = 1.0;  // s
+  constexpr double kWorst = 3.0;    // m/s
+  FixTrust trust;
+  trust.begin(milliseconds(0));
+  for (int ms = 100; ms <= 5000; ms += 100) trust.velocity_believed(milliseconds(ms), kWorst, kSilence);
+  EXPECT_TRUE(trust.blames_receiver(2.0, kWorst, milliseconds(5100), kSilence)) << "measured throughout";
+  // A pause of four seconds may have cost twelve metres, until a position is believed again.
+  trust.velocity_believed(milliseconds(9000), kWorst, kSilence);
+  EXPECT_FALSE(trust.blames_receiver(11.9, kWorst, milliseconds(9100), kSilence));
+  EXPECT_TRUE(trust.blames_receiver(12.1, kWorst, milliseconds(9100), kSilence));
+  trust.position_believed(milliseconds(9200));
+  EXPECT_TRUE(trust.blames_receiver(2.0, kWorst, milliseconds(9300), kSilence));
+  EXPECT_FALSE(trust.blames_receiver(5.9, kWorst, milliseconds(11200), kSilence)) << "the pause goes on";
 }
 
 TEST(GateTest, AcceptsRejectsAndFinallyResets) {

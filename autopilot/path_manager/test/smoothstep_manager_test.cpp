@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -51,6 +52,30 @@ TEST_F(SmoothstepManagerTest, StartsWhereTheVehicleIsAndFollowsTheClosedForm) {
     ASSERT_NEAR(point.heading_rate, s.first / duration, kRoundOff);
     ASSERT_NEAR(point.heading_acceleration, s.second / (duration * duration), kRoundOff);
   }
+}
+
+TEST_F(SmoothstepManagerTest, MovesItsReferenceAlongWhenThePositionJumpsAndMakesItsWayFromThere) {
+  flight_.set({waypoint(1, Vector3(20, 0, 0))});
+  flight_.fly(5.0);
+  const TrajectoryPoint before = flight_.last;
+  ASSERT_GT(before.v_N.x(), 1.0);
+  // WHEN the position jumps by 30 m to the right
+  const Vector3 jump_N(0.0, 30.0, 0.0);
+  flight_.estimate.p_NB_N += jump_N;
+  flight_.estimate.position_reset_N = jump_N;
+  ++flight_.estimate.position_resets;
+  // THEN the reference is where it would have been, beside, and as fast
+  const TrajectoryPoint after = flight_.step();
+  EXPECT_LT((after.p_N - before.p_N - jump_N).norm(), 1.5 * kTick * before.v_N.norm());
+  EXPECT_LT((after.v_N - before.v_N).norm(), 1.5 * kTick * 2.5);
+  // AND within its limits it comes to the waypoint all the same
+  double fastest = 0.0;
+  EXPECT_TRUE(flight_.until(60.0, [&](const TrajectoryPoint& point) {
+    fastest = std::max(fastest, point.v_N.norm());
+    return point.finished;
+  }));
+  EXPECT_LT(fastest, 3.0 + kRoundOff);
+  EXPECT_LT((flight_.last.p_N - Vector3(20, 0, 0)).norm(), kRoundOff);
 }
 
 TEST_F(SmoothstepManagerTest, IsContinuousAndWithinItsLimitsOverAWholeRoute) {

@@ -35,6 +35,16 @@ TEST(EventNamesTest, KnowsWhatEveryFlightHas) {
   }
 }
 
+TEST(EventNamesTest, KnowsTheEventsOfThePosition) {
+  for (const char* name : {"doubtful", "sure", "cause:position_doubtful"}) {
+    EXPECT_EQ(of_deed(mission(3), name), "") << name;
+  }
+  for (const char* name : {"gnss_step", "position_reset", "origin_moved"}) {
+    EXPECT_EQ(EventNames(mission(3)).complaint(name, Waiting::kCheck), "") << name;
+    EXPECT_NE(of_deed(mission(3), name), "") << "its text is a distance: " << name;
+  }
+}
+
 TEST(EventNamesTest, CountsTheWaypointsThatThereCanBe) {
   Scenario scenario = mission(3);
   EXPECT_EQ(of_deed(scenario, "waypoint_3"), "");

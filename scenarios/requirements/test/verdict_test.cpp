@@ -258,6 +258,27 @@ TEST_F(JudgeTest, SaysWhyThePhaseChangedWhenNobodyAskedForIt) {
   EXPECT_EQ(judge.events()[1].text, "level_descent");
 }
 
+TEST_F(JudgeTest, SaysWhatHappensToThePosition) {
+  Judge judge({}, table_, {&truth_, &signals_}, 10ms);
+  autopilot::StateEstimate& x = signals_.estimate;
+  x.origin.known = true;
+  judge.observe(0ms);
+  x.position_doubtful = true;
+  x.position_offset_N.x() = 300.0;
+  judge.observe(10ms);
+  x.position_doubtful = false;
+  x.position_offset_N.setZero();
+  x.position_resets = 1;
+  x.position_reset_N.y() = -12.5;
+  judge.observe(20ms);
+  x.origin.latitude += 100.0 / 6378145.0;
+  judge.observe(30ms);
+  judge.observe(40ms);
+  std::string all;
+  for (const RunEvent& event : judge.events()) all += event.kind + ":" + event.text + " ";
+  EXPECT_EQ(all, "position:doubtful gnss_step:300 m position:sure position_reset:12.5 m origin_moved:100 m ");
+}
+
 TEST_F(JudgeTest, MakesOneEventOfAHealthThatFlaps) {
   using autopilot::Health;
   Judge judge({}, table_, {&truth_, &signals_}, 10ms);

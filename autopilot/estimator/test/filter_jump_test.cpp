@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+
+#include "autopilot/estimator/test/filter_fixture.hpp"
+#include "autopilot/signals.hpp"
+
+// What the filters make of satellite fixes that jump. Instantiated in filter_behaviour_test.cpp.
+
+namespace ironbird::autopilot {
+namespace {
+
+constexpr double kPersistence = 3.5;  // s, more than the default of gnss.persistence
+constexpr double kFixError = 0.2;     // m, of the step that a filter finds
+
+/// Who is armed is in flight, as far as a filter can know.
+SensorFrame armed(SensorFrame frame) {
+  frame.status = FcuStatus{};
+  frame.status->armed = true;
+  return frame;
+}
+
+TEST_P(FilterTest, RefusesAJumpThatDopplerContradictsAndSaysThatItDoubts) {
+  // GIVEN a good estimate in flight
+  fly(40.0);
+  step(armed(sensors.next()));
+  // WHEN all fixes jump by 300 m
+  sensors.gnss_jump = {300.0, 0.0, 0.0};
+  fly(1.5);
+  // THEN they are refused at first
+  EXPECT_EQ(x.health, Health::kDegraded);
+  EXPECT_FALSE(x.position_doubtful);
+  // AND for good, with doubt, when they insist
+  fly(kPersistence);
+  EXPECT_TRUE(x.position_doubtful);
+  EXPECT_TRUE(x.position_known) << "by dead reckoning";
+  EXPECT_LT((x.position_offset_N - sensors.gnss_jump).norm(), kFixError);
+  fly(60.0);
+  EXPECT_TRUE(x.position_doubtful);
+  EXPECT_EQ(x.health, Health::kDegraded);
+  EXPECT_LT(horizontal_error(), kGoodPosition);
+  EXPECT_EQ(x.position_resets, 0U);
+}
+
+TEST_P(FilterTest, BelievesAReceiverThatJumpsBack) {
+  fly(40.0);
+  step(armed(sensors.next()));
+  sensors.gnss_jump = {0.0, -25.0, 0.0};
+  fly(kPersistence);
+  EXPECT_TRUE(x.position_doubtful);
+  sensors.gnss_jump.setZero();
+  fly(1.0);
+  EXPECT_FALSE(x.position_doubtful);
+  EXPECT_TRUE(x.position_offset_N.isZero(0.0));
+  expect_good();
+}
+
+TEST_P(FilterTest, MovesItsOriginWhenTheFixesJumpOnTheGround) {
+  sensors.path.rest = 1000.0;
+  fly(10.0);
+  const double latitude = x.origin.latitude;
+  sensors.gnss_jump = {100.0, 0.0, 0.0};
+  fly(kPersistence + 1.0);
+  EXPECT_NEAR((x.origin.latitude - latitude) * 6378145.0, 100.0, kFixError);
+  EXPECT_FALSE(x.position_doubtful);
+  EXPECT_EQ(x.position_resets, 0U) << "N stays with the vehicle";
+  expect_good();
+}
+
+TEST_P(FilterTest, SeesAJumpOfFixesThatWeighLittle) {
+  AidingParams aiding;
+  aiding.gnss.sigma_horizontal = 15.0;
+  make(aiding, false);
+  fly(40.0);
+  step(armed(sensors.next()));
+  sensors.gnss_jump = {0.0, 12.0, 0.0};
+  fly(kPersistence);
+  EXPECT_TRUE(x.position_doubtful);
+}
+
+TEST_P(FilterTest, BelievesTheFixesAfterAPauseInWhichItMayHaveDrifted) {
+  fly(40.0);
+  step(armed(sensors.next()));
+  // GIVEN a pause, and fixes behind it that are as far off as a drift of 2.5 m/s
+  sensors.gnss_on = false;
+  fly(10.0);
+  sensors.gnss_on = true;
+  sensors.gnss_jump = {25.0, 0.0, 0.0};
+  fly(kPersistence);
+  // THEN it is the filter that has gone astray, and says how far it is set back
+  EXPECT_FALSE(x.position_doubtful);
+  EXPECT_NEAR(x.p_NB_N.x() - sensors.truth().p_N.x(), 25.0, 2.0);
+  EXPECT_GE(x.position_resets, 1U);
+  EXPECT_GT(x.position_reset_N.x(), 15.0);
+  EXPECT_EQ(x.position_reset_N.z(), 0.0);
+}
+
+TEST_P(FilterTest, DoesNotTakeAFarJumpAfterAPauseForItsOwnDrift) {
+  fly(40.0);
+  step(armed(sensors.next()));
+  sensors.gnss_on = false;
+  fly(5.0);
+  sensors.gnss_on = true;
+  sensors.gnss_jump = {300.0, 0.0, 0.0};
+  fly(kPersistence);
+  EXPECT_TRUE(x.position_doubtful);
+  EXPECT_LT(horizontal_error(), 4.0);
+}
+
+TEST_P(FilterTest, HandsItsDoubtOnToItsSuccessor) {
+  fly(40.0);
+  step(armed(sensors.next()));
+  sensors.gnss_jump = {300.0, 0.0, 0.0};
+  fly(kPersistence);
+  Signals signals;
+  signals.flight.fcu.armed = true;
+  signals.estimate = x;
+  make(AidingParams{}, true);
+  estimator->take_over(signals);
+  fly(1.0);
+  EXPECT_TRUE(x.position_doubtful);
+  EXPECT_LT(horizontal_error(), kGoodPosition);
+}
+
+TEST_P(FilterTest, TakesASigmaOfHeightOnlyWhenItUsesTheHeightOfAFix) {
+  ParameterTable table;
+  estimator->register_parameters(table, "estimator");
+  const bool uses_height = GetParam() == Kind::kErrorState;
+  EXPECT_EQ(table.find("estimator.gnss.sigma_vertical") != nullptr, uses_height);
+}
+
+}  // namespace
+}  // namespace ironbird::autopilot
