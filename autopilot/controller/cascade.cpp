@@ -10,6 +10,7 @@ namespace ironbird::autopilot {
 namespace {
 
 constexpr double kSmallestCosine = 0.5;  // of the tilt, where thrust makes up for it: 60 degrees
+constexpr double kSlow = 0.5;            // m/s, from where stopping at once is gentle: 1.1 m/s^2
 constexpr double kSmallestLift = 0.1;    // share of gravity, so that an acceleration always has an attitude
 
 double limited(double value, double limit) {
@@ -21,6 +22,24 @@ Vector3 limited(const Vector3& value, double horizontal, double up, double down)
   const double size = std::sqrt(value.x() * value.x() + value.y() * value.y());
   const double share = size > horizontal ? horizontal / size : 1.0;
   return {share * value.x(), share * value.y(), std::clamp(value.z(), -up, down)};
+}
+
+// A vehicle whose wanted speed is `stiffness` times the distance slows down with `stiffness` times its speed.
+// Farther off than where that is the deceleration allowed, the wanted speed is that of constant deceleration,
+// v^2 = 2 a (d - a/(2 k^2)), which meets the line d k with its slope.
+
+/// @param distance  m
+double approach_speed(double distance, double stiffness, double deceleration) {
+  const double linear = stiffness * distance;
+  const double bend = deceleration / stiffness;
+  return linear <= bend ? linear : bend * std::sqrt(2.0 * linear / bend - 1.0);
+}
+
+/// The distance with that speed.
+double approach_distance(double speed, double stiffness, double deceleration) {
+  const double bend = deceleration / stiffness;
+  if (speed <= bend) return speed / stiffness;
+  return 0.5 * (speed * speed / deceleration + bend / stiffness);
 }
 
 }  // namespace
@@ -50,6 +69,24 @@ FcuCommand Cascade::fly(const ControlSetpoint& setpoint, const StateEstimate& es
                    [&] { return std::visit([this](const auto& entry) { return enter(entry); }, setpoint); });
 }
 
+FcuCommand Cascade::come_to(const Approach& approach, const StateEstimate& estimate, const Step& step) {
+  return run_loops(estimate, step, [&] { return enter(approach); });
+}
+
+Vector3 Cascade::resting_place(const StateEstimate& estimate, double deceleration) const {
+  const Vector2 v_N = estimate.v_NB_N().head<2>();
+  const double speed = v_N.norm();
+  Vector3 place_N = estimate.p_NB_N;
+  if (speed > kSlow && stiffness() > 0.0) {
+    place_N.head<2>() += approach_distance(speed, stiffness(), deceleration) / speed * v_N;
+  }
+  return place_N;
+}
+
+double Cascade::stiffness() const {
+  return std::min(params_.pos_n_to_vel.kp, params_.pos_e_to_vel.kp);
+}
+
 FcuCommand Cascade::sink_level(double v_down, const StateEstimate& estimate, const Step& step) {
   return run_loops(estimate, step, [&] {
     const double v_D = estimate.v_NB_N().z();
@@ -64,6 +101,7 @@ FcuCommand Cascade::run_loops(const StateEstimate& estimate, const Step& step, E
   estimate_ = &estimate;
   step_ = step;
   lift_ = 0.0;
+  asked_upright_.reset();
   const std::array<bool, kLoops> used_before = used_;
   used_.fill(false);
   const FcuCommand command = enter_at();
@@ -125,6 +163,10 @@ double Cascade::yaw_rate_for(double heading) {
   return run(kYawToRate, shortest_difference(heading, estimate_->heading), estimate_->w_NB_B.z());
 }
 
+void Cascade::note_lean(double roll, double pitch) {
+  asked_upright_ = std::cos(roll) * std::cos(pitch);
+}
+
 bool Cascade::near_ground() const {
   return std::abs(estimate_->p_NB_N.z()) < params_.min_altitude_for_attitude_control;
 }
@@ -151,6 +193,21 @@ FcuCommand Cascade::enter(const PositionClimbHeading& s) {
   const Vector3 v_NB_N = estimate_->v_NB_N();
   VelocityHeadingRate next;
   next.v_N << run(kPosN, error_N.x(), v_NB_N.x()), run(kPosE, error_N.y(), v_NB_N.y()), s.v_down;
+  next.heading_rate = yaw_rate_for(s.heading);
+  return enter(next);
+}
+
+FcuCommand Cascade::enter(const Approach& s) {
+  const Vector3 error_N = s.p_N - estimate_->p_NB_N;
+  const Vector3 v_NB_N = estimate_->v_NB_N();
+  Vector2 wanted_N(run(kPosN, error_N.x(), v_NB_N.x()), run(kPosE, error_N.y(), v_NB_N.y()));
+  const double speed = wanted_N.norm();
+  if (stiffness() > 0.0) {
+    const double most = approach_speed(error_N.head<2>().norm(), stiffness(), s.deceleration);
+    if (speed > most) wanted_N *= most / speed;
+  }
+  VelocityHeadingRate next;
+  next.v_N << wanted_N, s.v_down ? *s.v_down : run(kPosD, error_N.z(), v_NB_N.z());
   next.heading_rate = yaw_rate_for(s.heading);
   return enter(next);
 }
@@ -196,6 +253,7 @@ FcuCommand Cascade::enter(const AngleHeadingRateThrottle& s) {
   if (near_ground()) return command;
   command.roll = limited(s.roll, params_.max_roll);
   command.pitch = limited(s.pitch, params_.max_pitch);
+  note_lean(command.roll, command.pitch);
   command.heading_rate = limited(s.heading_rate, params_.max_yaw_rate);
   return command;
 }
@@ -222,9 +280,12 @@ FcuCommand Cascade::enter(const TorqueThrust& s) {
 
 FcuCommand Cascade::enter(const AngleHeadingThrust& s) {
   const Vector3& w_NB_B = estimate_->w_NB_B;
+  const double roll = limited(s.roll, params_.max_roll);
+  const double pitch = limited(s.pitch, params_.max_pitch);
+  note_lean(roll, pitch);
   TorqueThrust next;
-  next.M_B << run(kRoll, limited(s.roll, params_.max_roll) - estimate_->roll, w_NB_B.x()),
-      run(kPitch, limited(s.pitch, params_.max_pitch) - estimate_->pitch, w_NB_B.y()),
+  next.M_B << run(kRoll, roll - estimate_->roll, w_NB_B.x()),
+      run(kPitch, pitch - estimate_->pitch, w_NB_B.y()),
       run(kYaw, shortest_difference(s.heading, estimate_->heading), w_NB_B.z());
   next.thrust = s.thrust;
   return enter(next);
@@ -233,9 +294,12 @@ FcuCommand Cascade::enter(const AngleHeadingThrust& s) {
 FcuCommand Cascade::enter(const AngleHeadingRateThrust& s) {
   const Vector3& w_NB_B = estimate_->w_NB_B;
   const double heading_rate = limited(s.heading_rate, params_.max_yaw_rate);
+  const double roll = limited(s.roll, params_.max_roll);
+  const double pitch = limited(s.pitch, params_.max_pitch);
+  note_lean(roll, pitch);
   TorqueThrust next;
-  next.M_B << run(kRoll, limited(s.roll, params_.max_roll) - estimate_->roll, w_NB_B.x()),
-      run(kPitch, limited(s.pitch, params_.max_pitch) - estimate_->pitch, w_NB_B.y()),
+  next.M_B << run(kRoll, roll - estimate_->roll, w_NB_B.x()),
+      run(kPitch, pitch - estimate_->pitch, w_NB_B.y()),
       run_filtered(kYawRate, heading_rate - w_NB_B.z(), w_NB_B.z());
   next.thrust = s.thrust;
   return enter(next);

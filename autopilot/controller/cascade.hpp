@@ -10,6 +10,22 @@
 
 namespace ironbird::autopilot {
 
+/// A place to come to and rest at, or to rest above while sinking.
+struct Approach {
+  Vector3 p_N = Vector3::Zero();
+  std::optional<double> v_down;
+  double heading = 0.0;
+  double deceleration = 2.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("p_N", self.p_N, "m", "the place, from the local origin");
+    visit("v_down", self.v_down, "m/s", "vertical velocity instead of the height of the place");
+    visit("heading", self.heading, "rad", "the heading to keep");
+    visit("deceleration", self.deceleration, "m/s^2", "the most to slow down with, horizontally");
+  }
+};
+
 /// The loops of the controller: a setpoint at any of the twelve entry points becomes a command for the FCU.
 /// ROScopter paper, controller table.
 ///
@@ -32,6 +48,14 @@ class Cascade {
   /// past.
   FcuCommand fly(const ControlSetpoint& setpoint, const StateEstimate& estimate, const Step& step);
 
+  /// One step towards a place, as entry 0 or 4, but never faster than one may be that far from where one
+  /// wants to rest.
+  FcuCommand come_to(const Approach& approach, const StateEstimate& estimate, const Step& step);
+
+  /// Where `come_to` would bring the vehicle to rest without asking for another velocity than it has now. Its
+  /// height is the present one. Slower than 0.5 m/s it is where the vehicle is.
+  Vector3 resting_place(const StateEstimate& estimate, double deceleration) const;
+
   /// One step of a descent on height and attitude alone: level, no turn, no horizontal loop.
   /// @param v_down  m/s
   FcuCommand sink_level(double v_down, const StateEstimate& estimate, const Step& step);
@@ -45,6 +69,9 @@ class Cascade {
 
   /// Share of the weight that the last command lifts, 1.
   double lift() const { return lift_; }
+
+  /// Cosine of the lean that was asked for when it flew last; none when that was rates or torques.
+  const std::optional<double>& asked_upright() const { return asked_upright_; }
 
  private:
   enum Loop : std::uint8_t {
@@ -76,6 +103,7 @@ class Cascade {
   FcuCommand enter(const AngleHeadingThrust& s);
   FcuCommand enter(const AngleHeadingRateThrust& s);
   FcuCommand enter(const RateThrust& s);
+  FcuCommand enter(const Approach& s);
   FcuCommand enter(const NoSetpoint&) { return SilenceCommand{}; }
 
   template <class Enter>
@@ -83,6 +111,8 @@ class Cascade {
   double run(Loop loop, double error, double rate);
   double run_filtered(Loop loop, double error, double measurement);
   double yaw_rate_for(double heading);
+  double stiffness() const;
+  void note_lean(double roll, double pitch);
   bool near_ground() const;
   void aim(Loop loop, double error, double rate);
   void aim_at(const Vector3& torque_B);
@@ -93,6 +123,7 @@ class Cascade {
   const StateEstimate* estimate_ = nullptr;
   Step step_;
   double lift_ = 0.0;
+  std::optional<double> asked_upright_;
   std::array<std::optional<double>, kLoops> aims_{};  // what the loops are to give in the next step
 };
 

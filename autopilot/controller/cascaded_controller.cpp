@@ -12,13 +12,9 @@ namespace {
 
 // So near to the height of the launch the vehicle is more likely on the ground than in the air.
 constexpr double kLow = 1.0;         // m
-constexpr double kOverturned = 0.5;  // cosine of 60 deg, who flies so is at speed within a tenth of a second
-constexpr double kLiesStill = 1.0;   // s
-constexpr double kShortestRest = 0.3;  // s, which is enough there
-constexpr double kOffGround = 0.3;     // m above the launch: the climb has begun
-constexpr double kLeastGain = 0.2;     // 1/s, of position to velocity: a longer way to rest is none
-constexpr double kBlindTilt = 0.35;    // rad, 1 sigma: less sure it is better not to turn
-constexpr double kBlindLift = 0.97;    // of the weight: rather down than up
+constexpr double kOffGround = 0.3;   // m above the launch: the climb has begun
+constexpr double kBlindTilt = 0.35;  // rad, 1 sigma: less sure it is better not to turn
+constexpr double kBlindLift = 0.97;  // of the weight: rather down than up
 // A vehicle that sinks slower than this share of what it was told to is held up by something.
 constexpr double kStoppedShare = 0.4;
 
@@ -38,8 +34,9 @@ void CascadedController::reset() {
   armed_at_.reset();
   seen_disarmed_ = false;
   blind_since_.reset();
-  rests_since_.reset();
-  overturned_since_.reset();
+  rest_.reset();
+  upright_.reset();
+  descent_.reset();
 }
 
 void CascadedController::take_over(const Signals& signals) {
@@ -89,29 +86,38 @@ FcuCommand CascadedController::control(const ControlSetpoint& setpoint, bool lan
     if (status.armed || !params().zeros_while_disarmed) return SilenceCommand{};
     return PassThroughCommand{};
   }
+  if (upright_.stops(estimate.stamp)) return stop();
   if (step.phase == FlightPhase::kSilent) {
-    return without_estimate(estimate, status.overridden(), dt);
+    return without_estimate(estimate, status.overridden() || rest_.in_doubt(), dt);
   }
-  if (lies_overturned(estimate)) {
-    cascade_.reset();
-    return PassThroughCommand{};
-  }
-  const bool overridden = status.overridden();
+  return fly(setpoint, estimate, status, dt, step.phase);
+}
+
+FcuCommand CascadedController::stop() {
+  cascade_.reset();
+  descent_.reset();
+  return PassThroughCommand{};
+}
+
+FcuCommand CascadedController::fly(const ControlSetpoint& setpoint, const StateEstimate& estimate,
+                                   const FcuStatus& status, double dt, FlightPhase phase) {
+  const bool overridden = status.overridden() || rest_.in_doubt();
   const bool stands =
-      step.phase == FlightPhase::kTakeOff && memory().launch_N.z() - estimate.p_NB_N.z() < kOffGround;
+      phase == FlightPhase::kTakeOff && memory().launch_N.z() - estimate.p_NB_N.z() < kOffGround;
   if (overridden && !stands && is_usable(estimate)) {
-    notebook().point_N = estimate.p_NB_N;
+    notebook().point_N = cascade_.resting_place(estimate, params().braking_acceleration);
     notebook().point_heading = estimate.heading;
   }
+  if (rest_.in_doubt()) return stop();
   Cascade::Step how{dt, !overridden, params().take_off_pass_through};
-  switch (step.phase) {
+  switch (phase) {
     case FlightPhase::kTakeOff:
       return cascade_.fly(climb(), estimate, how);
     case FlightPhase::kHold:
-      return cascade_.fly(hold(), estimate, how);
+      return cascade_.come_to(hold(), estimate, how);
     case FlightPhase::kLanding:
     case FlightPhase::kLevelDescent:
-      return land(step.phase, estimate, overridden, how);
+      return land(phase, estimate, overridden, how);
     default:
       how.thrust_in_newtons = params().acceleration_output == 1;
       return cascade_.fly(setpoint, estimate, how);
@@ -123,33 +129,17 @@ void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& s
   if (status.armed && seen_disarmed_) armed_at_ = estimate.stamp;
   if (!status.armed) armed_at_.reset();
   seen_disarmed_ = !status.armed && status.stamp.count() > 0;
-  const double speed = estimate.position_known ? estimate.v_NB_B.norm() : std::abs(estimate.v_NB_N().z());
-  // Nothing that flies leans so far without moving or turning.
-  const bool overturned = is_usable(estimate) && (estimate.q_NB * Vector3::UnitZ()).z() < kOverturned &&
-                          speed < params().rest_speed && estimate.w_NB_B.norm() < params().rest_rate;
-  if (!overturned) {
-    overturned_since_.reset();
-  } else if (!overturned_since_) {
-    overturned_since_ = estimate.stamp;
-  }
-  const bool still = status.overridden() && is_usable(estimate) && speed < params().rest_speed &&
-                     estimate.w_NB_B.norm() < params().rest_rate;
-  if (!still) {
-    rests_since_.reset();
-  } else if (!rests_since_) {
-    rests_since_ = estimate.stamp;
-  }
-}
-
-bool CascadedController::lies_overturned(const StateEstimate& estimate) const {
-  return overturned_since_ && seconds(estimate.stamp - *overturned_since_) >= kLiesStill;
+  // On the ground the companion is silent, so that "not heard" alone tells nothing there.
+  const bool left_alone = phase() == FlightPhase::kSilent && status.overridden();
+  const bool taken = status.failsafe || status.pilot_holds();
+  rest_.look(estimate, is_usable(estimate), status, taken || left_alone, params());
+  if (phase() == FlightPhase::kDisarmed) upright_.reset();
+  upright_.look(estimate, is_usable(estimate), rest_.still(), cascade_.asked_upright(), taken);
 }
 
 bool CascadedController::rests_with_pilot(const StateEstimate& estimate) const {
-  if (!rests_since_) return false;
-  const double rest = seconds(estimate.stamp - *rests_since_);
   const bool low = memory().launched && memory().launch_N.z() - estimate.p_NB_N.z() < kLow;
-  return rest >= params().rest_time || (low && rest >= std::min(kShortestRest, params().rest_time));
+  return rest_.rests(estimate.stamp, low, params());
 }
 
 bool CascadedController::take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
@@ -189,7 +179,10 @@ PhaseInputs CascadedController::inputs(const ControlSetpoint& setpoint, bool lan
 
 void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateEstimate& estimate) {
   touch_down_.reset();
-  rests_since_.reset();
+  descent_.reset();
+  if (phase == FlightPhase::kDisarmed || phase == FlightPhase::kTakeOff) {
+    rest_.reset();
+  }
   FlightMemory& m = notebook();
   const bool high = m.launch_N.z() - estimate.p_NB_N.z() > kLow;
   blind_since_.reset();
@@ -201,17 +194,10 @@ void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateE
   }
   if (!is_usable(estimate)) return;
   m.has_point = true;
-  m.point_N = estimate.p_NB_N;
+  m.point_N = phase == FlightPhase::kTakeOff
+                  ? estimate.p_NB_N
+                  : cascade_.resting_place(estimate, params().braking_acceleration);
   m.point_heading = estimate.heading;
-  if (phase == FlightPhase::kHold && estimate.position_doubtful) m.point_N += way_to_rest(estimate);
-}
-
-Vector3 CascadedController::way_to_rest(const StateEstimate& estimate) const {
-  // Where the loops ask for the speed that it has.
-  const Vector3 v_NB_N = estimate.v_NB_N();
-  const double kp_n = std::max(params().pos_n_to_vel.kp, kLeastGain);
-  const double kp_e = std::max(params().pos_e_to_vel.kp, kLeastGain);
-  return {v_NB_N.x() / kp_n, v_NB_N.y() / kp_e, 0.0};
 }
 
 FcuCommand CascadedController::without_estimate(const StateEstimate& estimate, bool overridden, double dt) {
@@ -234,8 +220,8 @@ ControlSetpoint CascadedController::climb() const {
   return PositionClimbHeading{memory().point_N.head<2>(), -params().take_off_speed, memory().point_heading};
 }
 
-ControlSetpoint CascadedController::hold() const {
-  return PositionHeading{memory().point_N, memory().point_heading};
+Approach CascadedController::hold() const {
+  return {memory().point_N, {}, memory().point_heading, params().braking_acceleration};
 }
 
 double CascadedController::sink_rate(const StateEstimate& estimate) const {
@@ -246,17 +232,17 @@ double CascadedController::sink_rate(const StateEstimate& estimate) const {
 FcuCommand CascadedController::land(FlightPhase phase, const StateEstimate& estimate, bool overridden,
                                     const Cascade::Step& step) {
   // Others may have flown it off; while it lies still it is where it landed.
-  if (overridden && !rests_since_) touch_down_.reset();
+  if (overridden && !rest_.still_with_others()) touch_down_.reset();
   notebook().on_ground = touch_down_.felt();
-  if (touch_down_.felt() || !is_usable(estimate)) {
-    cascade_.reset();
-    return PassThroughCommand{};
-  }
-  const double v_down = sink_rate(estimate);
-  const PositionClimbHeading over_the_point{memory().point_N.head<2>(), v_down, memory().point_heading};
+  if (touch_down_.felt() || !is_usable(estimate)) return stop();
+  if (overridden) descent_.reset();
+  const double v_down = descent_.sink(estimate, sink_rate(estimate), step.dt, params().braking_acceleration,
+                                      params().max_climb_acceleration);
+  const Approach over_the_point{memory().point_N, v_down, memory().point_heading,
+                                params().braking_acceleration};
   const FcuCommand command = phase == FlightPhase::kLevelDescent
                                  ? cascade_.sink_level(v_down, estimate, step)
-                                 : cascade_.fly(over_the_point, estimate, step);
+                                 : cascade_.come_to(over_the_point, estimate, step);
   if (!overridden) {
     const double stopped = std::min(params().touch_down_speed, kStoppedShare * v_down);
     touch_down_.feel(estimate.stamp, cascade_.lift(), estimate.v_NB_N().z(), stopped,

@@ -7,14 +7,18 @@
 
 #include "autopilot/controller/cascade.hpp"
 #include "autopilot/controller/controller.hpp"
+#include "autopilot/controller/descent.hpp"
 #include "autopilot/controller/flight_phase.hpp"
+#include "autopilot/controller/rest_watch.hpp"
 #include "autopilot/controller/touch_down.hpp"
+#include "autopilot/controller/upright_watch.hpp"
 #include "autopilot/module/tunable.hpp"
 
 namespace ironbird::autopilot {
 
-/// Constants of the cascaded controller: those of the cascade, and how to take off and land.
-struct CascadedControllerParams : CascadeParams {
+/// Constants of the cascaded controller: those of the cascade, what counts as rest, and how to take off and
+/// land.
+struct CascadedControllerParams : CascadeParams, RestLimits {
   bool take_off_on_arming = false;
   bool take_off_pass_through = true;
   bool zeros_while_disarmed = false;
@@ -31,9 +35,7 @@ struct CascadedControllerParams : CascadeParams {
   double arming_patience = 5.0;
   double silence_patience = 2.0;
   double doubt_patience = 10.0;
-  double rest_speed = 0.15;
-  double rest_rate = 0.05;
-  double rest_time = 2.0;
+  double braking_acceleration = 2.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -67,11 +69,9 @@ struct CascadedControllerParams : CascadeParams {
           0.0, 10.0);
     visit("doubt_patience", self.doubt_patience, "s",
           "how long it holds a position that the satellites contradict, before it lands there", 0.0, 600.0);
-    visit("rest_speed", self.rest_speed, "m/s", "slower than this the vehicle may lie on the ground", 0.01,
-          1.0);
-    visit("rest_rate", self.rest_rate, "rad/s", "turning slower than this it may", 0.001, 1.0);
-    visit("rest_time", self.rest_time, "s",
-          "how long both must last under pilot or failsafe, to need a new request to take off", 0.1, 60.0);
+    visit("braking_acceleration", self.braking_acceleration, "m/s^2",
+          "what a vehicle at speed comes to rest with, to hold or to land", 0.1, 20.0);
+    RestLimits::describe(self, visit);
   }
 
   static std::string_view conflict(const CascadedControllerParams& p) {
@@ -91,9 +91,9 @@ struct CascadedControllerParams : CascadeParams {
 ///
 /// The FCU alone can disarm: after touch-down the controller asks for no thrust until the pilot disarms.
 /// While the pilot or a failsafe has the vehicle, all integrals are 0 and the point to hold is where the
-/// vehicle is; when it comes to rest meanwhile, it needs a new request to take off. With a position
-/// in doubt it holds, then lands on the spot; without one it descends level; without a usable estimate it is
-/// kept level as far as is known for `silence_patience`, then nothing is sent, and the FCU's own time-out
+/// vehicle would come to rest; when it lies on the ground meanwhile, it needs a new request to take off. With a
+/// position in doubt it holds, then lands on the spot; without one it descends level; without a usable estimate
+/// it is kept level as far as is known for `silence_patience`, then nothing is sent, and the FCU's own time-out
 /// decides.
 class CascadedController final : public Tunable<Controller, CascadedControllerParams> {
  public:
@@ -114,26 +114,28 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
                      const FcuStatus& status, FlightPhase phase) const;
   void watch(const StateEstimate& estimate, const FcuStatus& status);
   bool rests_with_pilot(const StateEstimate& estimate) const;
-  bool lies_overturned(const StateEstimate& estimate) const;
+  FcuCommand fly(const ControlSetpoint& setpoint, const StateEstimate& estimate, const FcuStatus& status,
+                 double dt, FlightPhase phase);
+  FcuCommand stop();
   bool take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
                        const FcuStatus& status, FlightPhase phase) const;
   void enter(FlightPhase phase, FlightPhase from, const StateEstimate& estimate);
   FcuCommand without_estimate(const StateEstimate& estimate, bool overridden, double dt);
-  Vector3 way_to_rest(const StateEstimate& estimate) const;
   ControlSetpoint climb() const;
-  ControlSetpoint hold() const;
+  Approach hold() const;
   double sink_rate(const StateEstimate& estimate) const;
   FcuCommand land(FlightPhase phase, const StateEstimate& estimate, bool overridden,
                   const Cascade::Step& step);
 
   Cascade cascade_;
   TouchDown touch_down_;
-  std::array<bool, 3> wishes_{};          // one for each FlightWish, for the next step only
-  std::optional<Time> blind_since_;       // silence fell in the air
-  bool seen_disarmed_ = false;            // by this object, in the step before
-  std::optional<Time> armed_at_;          // none: not armed, or not seen to arm
-  std::optional<Time> rests_since_;       // none: it moves, or is not in other hands
-  std::optional<Time> overturned_since_;  // none: it moves, or leans less than 60 deg
+  std::array<bool, 3> wishes_{};     // one for each FlightWish, for the next step only
+  std::optional<Time> blind_since_;  // silence fell in the air
+  bool seen_disarmed_ = false;       // by this object, in the step before
+  std::optional<Time> armed_at_;     // none: not armed, or not seen to arm
+  RestWatch rest_;
+  UprightWatch upright_;
+  Descent descent_;
 };
 
 }  // namespace ironbird::autopilot

@@ -136,6 +136,7 @@ struct FcuStatus {
   int error_code = 0;
   bool imu_calibrated = true;
   double battery_voltage = 0.0;
+  std::optional<double> greatest_output = {};
 
   /// The pilot's switches or sticks hold an axis: bits 0 to 4 of the wire. The bits above say that the
   /// companion was not heard, or that the pilot's throttle is the lower one.
@@ -156,6 +157,8 @@ struct FcuStatus {
           "0: the offsets of the inertial unit are still to be found");
     visit("battery_voltage", self.battery_voltage, "V",
           "low-passed battery voltage; 0 before the first reading");
+    visit("greatest_output", self.greatest_output, "1",
+          "of what the motors were driven with last, whoever drives them; none: the FCU has not said");
   }
 };
 

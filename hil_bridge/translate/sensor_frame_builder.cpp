@@ -1,5 +1,6 @@
 #include "hil_bridge/translate/sensor_frame_builder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -39,6 +40,8 @@ const autopilot::SensorFrame* SensorFrameBuilder::push(const Arrival& arrival) {
     take(*gnss);
   } else if (const auto* status = std::get_if<rosflight::RosflightStatus>(&arrival.message)) {
     take(*status, arrival.when);
+  } else if (const auto* outputs = std::get_if<rosflight::RosflightOutputRaw>(&arrival.message)) {
+    take(*outputs);
   } else if (const auto* battery = std::get_if<rosflight::RosflightBatteryStatus>(&arrival.message)) {
     if (std::isfinite(battery->battery_voltage))
       battery_voltage_ = static_cast<double>(battery->battery_voltage);
@@ -97,7 +100,17 @@ void SensorFrameBuilder::take(const rosflight::RosflightStatus& message, Time wh
   status.error_code = message.error_code;
   status.imu_calibrated = (message.error_code & rosflight::RosflightStatus::kUncalibratedImu) == 0;
   status.battery_voltage = battery_voltage_;
-  gathering_.status = status;
+  status.greatest_output = greatest_output_;
+  status_ = gathering_.status = status;
+}
+
+void SensorFrameBuilder::take(const rosflight::RosflightOutputRaw& message) {
+  const float greatest = *std::max_element(message.values.begin(), message.values.end());
+  if (!std::isfinite(greatest)) return;
+  greatest_output_ = static_cast<double>(greatest);
+  if (!status_) return;
+  status_->greatest_output = greatest_output_;
+  gathering_.status = status_;
 }
 
 }  // namespace ironbird::hil_bridge

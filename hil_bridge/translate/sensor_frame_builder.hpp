@@ -13,7 +13,7 @@ namespace ironbird::hil_bridge {
 ///
 /// Stamps: the wire carries those of the IMU and of GNSS. Magnetometer and barometer have none and get the
 /// stamp of the latest IMU message: a real loss of information, which the simulated link shares. The status
-/// gets the time of its arrival.
+/// gets the time of its arrival; it comes again when the FCU tells how its motors are driven.
 class SensorFrameBuilder {
  public:
   /// Takes one message. @return a frame when the message was an IMU sample; valid until the next call
@@ -24,10 +24,13 @@ class SensorFrameBuilder {
   void take(const rosflight::SmallBaro& message);
   void take(const rosflight::RosflightGnss& message);
   void take(const rosflight::RosflightStatus& message, Time when);
+  void take(const rosflight::RosflightOutputRaw& message);
 
   autopilot::SensorFrame gathering_;
   autopilot::SensorFrame complete_;
   Time imu_stamp_{0};
+  std::optional<autopilot::FcuStatus> status_;
+  std::optional<double> greatest_output_;
   double battery_voltage_ = 0.0;
 };
 

@@ -265,8 +265,8 @@ TEST_F(CascadedControllerTest, FliesOnOnItsBackWhileItFalls) {
   fly_offboard();
   estimate_.q_NB = Quaternion(0.0, 1.0, 0.0, 0.0);
   estimate_.v_NB_B.z() = -3.0;  // down
-  run_for(3.0);
-  EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, 0.0);
+  run_for(2.9);
+  EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, 0.0) << "it may right itself";
 }
 
 }  // namespace

@@ -222,9 +222,11 @@ TEST_F(CascadedControllerTest, DescendsFastOnlyWhenHigh) {
   fly_offboard();
   estimate_.p_NB_N.z() = -30.0;
   ask(FlightWish::kLand);
-  run();
+  estimate_.v_NB_B.z() = controller_.params().descent_speed;
+  run_for(1.0);
   const double high = std::get<PassThroughCommand>(run()).thrust;
   estimate_.p_NB_N.z() = -2.0;
+  run_for(0.1);
   EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, high + 1.0);
 }
 

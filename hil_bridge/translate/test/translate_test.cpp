@@ -157,6 +157,32 @@ TEST(CommandEncoderTest, WithholdsWhatIsNotFiniteOnTheWire) {
   EXPECT_FALSE(encode(autopilot::RateCommand{.throttle = 1e300}).has_value());
 }
 
+TEST(SensorFrameBuilderTest, TellsHowTheMotorsAreDrivenAsSoonAsTheFcuSaysSo) {
+  SensorFrameBuilder builder;
+  const Time now = std::chrono::milliseconds(3);
+  rosflight::RosflightOutputRaw outputs;
+  outputs.values[0] = 0.1f;
+  outputs.values[2] = 0.25f;
+  // GIVEN nothing but outputs THEN there is no status
+  builder.push({now, outputs});
+  EXPECT_FALSE(builder.push({now, rosflight::SmallImu{}})->status.has_value());
+  // WHEN the status comes THEN it has them
+  rosflight::RosflightStatus status;
+  status.armed = 1;
+  builder.push({now, status});
+  const autopilot::SensorFrame* frame = builder.push({now, rosflight::SmallImu{}});
+  ASSERT_TRUE(frame->status.has_value());
+  EXPECT_FLOAT_EQ(static_cast<float>(frame->status->greatest_output.value()), 0.25f);
+  // WHEN the outputs change THEN so does what is said of them, and nothing else
+  outputs.values[2] = 0.0f;
+  builder.push({now + now, outputs});
+  frame = builder.push({now, rosflight::SmallImu{}});
+  ASSERT_TRUE(frame->status.has_value());
+  EXPECT_FLOAT_EQ(static_cast<float>(frame->status->greatest_output.value()), 0.1f);
+  EXPECT_TRUE(frame->status->armed);
+  EXPECT_EQ(frame->status->stamp, now);
+}
+
 TEST(TelemetryTest, KeepsTheLatestOfEachKind) {
   Telemetry telemetry;
   rosflight::RosflightOutputRaw outputs;

@@ -1,0 +1,63 @@
+#include "autopilot/controller/rest_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ironbird::autopilot {
+
+namespace {
+
+constexpr double kShortestRest = 0.3;  // s, which is enough near the height of the launch
+// Motors that idle carry less than a third of the weight, so a free vehicle falls with two thirds of gravity
+// or more; what lies on the ground accelerates only by errors of the accelerometer and of its tilt.
+constexpr double kFalls = 3.0;           // m/s^2
+constexpr double kCarriedTime = 0.2;     // s: a pilot's throttle comes to the outputs in a tenth of that
+constexpr double kLongestBounce = 0.25;  // s, which is 8 cm high: a fall, and no bounce, is longer
+constexpr double kLag = 0.05;            // s, of the acceleration
+
+}  // namespace
+
+void RestWatch::look(const StateEstimate& estimate, bool usable, const FcuStatus& status, bool taken,
+                     const RestLimits& limits) {
+  const bool idle = status.greatest_output && *status.greatest_output < limits.idle_output;
+  if (!usable) {
+    last_.reset();
+    still_ = false;
+    still_with_others_.forget();
+    carried_.forget();
+    falling_.forget();
+    in_doubt_ = taken ? idle : in_doubt_ && idle;
+    return;
+  }
+  feel_fall(estimate, idle);
+  const double speed = estimate.position_known ? estimate.v_NB_B.norm() : std::abs(estimate.v_NB_N().z());
+  still_ = speed < limits.rest_speed && estimate.w_NB_B.norm() < limits.rest_rate;
+  if (taken) {
+    in_doubt_ = idle;
+  } else if (falling_.lasts(kLongestBounce, estimate.stamp) || !idle) {
+    in_doubt_ = false;
+  }
+  still_with_others_.note(still_ && (taken || in_doubt_ || status.overridden()), estimate.stamp);
+  carried_.note(idle && std::abs(a_down_) < kFalls && (taken || in_doubt_), estimate.stamp);
+}
+
+void RestWatch::feel_fall(const StateEstimate& estimate, bool idle) {
+  const double v_down = estimate.v_NB_N().z();
+  const double dt = last_ ? seconds(estimate.stamp - *last_) : 0.0;
+  if (dt > 0.0) a_down_ += ((v_down - v_down_) / dt - a_down_) * dt / (kLag + dt);
+  if (!last_) a_down_ = 0.0;
+  last_ = estimate.stamp;
+  v_down_ = v_down;
+  falling_.note(idle && a_down_ >= kFalls, estimate.stamp);
+}
+
+bool RestWatch::rests(Time now, bool low, const RestLimits& limits) const {
+  return carried_.lasts(kCarriedTime, now) ||
+         still_with_others_.lasts(low ? std::min(kShortestRest, limits.rest_time) : limits.rest_time, now);
+}
+
+void RestWatch::reset() {
+  *this = RestWatch{};
+}
+
+}  // namespace ironbird::autopilot

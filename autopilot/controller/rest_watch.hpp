@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+
+#include "autopilot/controller/since.hpp"
+#include "autopilot/types/sensor_frame.hpp"
+#include "autopilot/types/state_estimate.hpp"
+
+namespace ironbird::autopilot {
+
+/// What counts as lying still.
+struct RestLimits {
+  double rest_speed = 0.15;
+  double rest_rate = 0.05;
+  double rest_time = 2.0;
+  double idle_output = 0.2;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("rest_speed", self.rest_speed, "m/s", "slower than this the vehicle may lie on the ground", 0.01,
+          1.0);
+    visit("rest_rate", self.rest_rate, "rad/s", "turning slower than this it may", 0.001, 1.0);
+    visit("rest_time", self.rest_time, "s",
+          "how long both must last under pilot or failsafe, to need a new request to take off", 0.1, 60.0);
+    visit("idle_output", self.idle_output, "1",
+          "with all motors driven less than this the vehicle falls unless something carries it", 0.01, 0.9);
+  }
+};
+
+/// Feels the ground while pilot or failsafe have the vehicle: it lies still, or its motors idle and yet it
+/// does not fall. The second needs no velocity, which after a hard touch-down is wrong by metres per second:
+/// the blow is shorter than a sample.
+///
+/// Who hands the vehicle back with idling motors leaves it in doubt whether it flies. The doubt ends when it
+/// falls for as long as no bounce lasts, or lies.
+class RestWatch {
+ public:
+  /// One step.
+  /// @param usable  the estimate is
+  /// @param taken   pilot or failsafe have the vehicle
+  void look(const StateEstimate& estimate, bool usable, const FcuStatus& status, bool taken,
+            const RestLimits& limits);
+
+  /// Slow and hardly turning, whoever has it.
+  bool still() const { return still_; }
+
+  /// The same, in other hands.
+  bool still_with_others() const { return still_with_others_.so(); }
+
+  /// It was handed back with idling motors, and it is not known yet whether it flies.
+  bool in_doubt() const { return in_doubt_; }
+
+  /// It lies on the ground and was put there by others.
+  /// @param low  near the height of the launch, where less stillness convinces
+  bool rests(Time now, bool low, const RestLimits& limits) const;
+
+  void reset();
+
+ private:
+  void feel_fall(const StateEstimate& estimate, bool idle);
+
+  std::optional<Time> last_;  // none: no velocity to compare with
+  double v_down_ = 0.0;       // m/s, of the step before
+  double a_down_ = 0.0;       // m/s^2, low-passed
+  bool still_ = false;
+  bool in_doubt_ = false;
+  Since still_with_others_;
+  Since carried_;  // although its motors idle, in other hands
+  Since falling_;  // with idling motors
+};
+
+}  // namespace ironbird::autopilot

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include "autopilot/controller/test/vertical_flight.hpp"
+
+namespace ironbird::autopilot {
+namespace {
+
+using enum FlightPhase;
+
+/// From the ground into the air, to that phase.
+void bring(VerticalFlight& flight, FlightPhase phase) {
+  EXPECT_TRUE(flight.ask(FlightWish::kTakeOff));
+  flight.live(2.0);
+  if (phase != kTakeOff) flight.live(6.0);
+  if (phase == kLanding) {
+    EXPECT_TRUE(flight.ask(FlightWish::kLand));
+    flight.live(1.0);
+  }
+  if (phase == kLevelDescent) {
+    flight.estimate.position_known = false;
+    flight.live(1.0);
+  }
+  EXPECT_EQ(flight.controller.phase(), phase);
+  EXPECT_GT(flight.height, 0.5);
+}
+
+class HandBackTest : public ::testing::TestWithParam<FlightPhase> {};
+
+TEST_P(HandBackTest, LeavesAVehicleThatThePilotDroppedWhereItLiesWheneverHeHandsBack) {
+  int drops = 0;
+  for (double held = 0.05; held < 3.0; held += 0.05) {
+    VerticalFlight flight;
+    bring(flight, GetParam());
+    flight.live(held, 0.0);
+    if (!flight.on_ground()) continue;
+    ++drops;
+    for (int i = 0; i < 2000; ++i) {
+      flight.live(VerticalFlight::kStep);
+      ASSERT_LT(flight.lift, 0.1) << "handed back after " << held << " s";
+    }
+    EXPECT_EQ(flight.controller.phase(), kDisarmed) << held;
+    EXPECT_EQ(flight.controller.cause(), PhaseCause::kRestsWithPilot) << held;
+    flight.estimate.position_known = true;
+    EXPECT_TRUE(flight.ask(FlightWish::kTakeOff)) << "a request is what it needs";
+  }
+  EXPECT_GT(drops, 30);
+}
+
+TEST_P(HandBackTest, FliesAtOnceWhenHandedBackInTheAir) {
+  VerticalFlight flight;
+  bring(flight, GetParam());
+  flight.live(0.5, 0.97);
+  ASSERT_FALSE(flight.on_ground());
+  const double height = flight.height;
+  flight.live(0.01);
+  EXPECT_GT(flight.lift, 0.5);
+  flight.live(1.0);
+  EXPECT_GT(flight.height, height - 0.8);
+}
+
+TEST_P(HandBackTest, CatchesAVehicleThatFallsWhenItIsHandedBack) {
+  VerticalFlight flight;
+  bring(flight, GetParam());
+  flight.live(4.0, 1.3);
+  flight.live(3.0, 0.0);
+  ASSERT_GT(flight.height, 10.0);
+  flight.live(0.01);
+  EXPECT_GT(flight.lift, 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Phases, HandBackTest, ::testing::Values(kTakeOff, kHold, kLanding, kLevelDescent),
+                         [](const auto& phase) {
+                           for (const auto& [value, name] : enumerators(FlightPhase{})) {
+                             if (value == phase.param) return std::string(name);
+                           }
+                           return std::string("unknown");
+                         });
+
+TEST(LandingTest, NeverClimbsFromAnyStateAndStopsAClimbThatItFinds) {
+  for (const double v_down : {-3.0, -1.0, -0.1, 0.0, 0.3, 1.0, 2.0, 4.0, 8.0}) {
+    for (const bool by_pilot : {false, true}) {
+      VerticalFlight flight;
+      bring(flight, kLanding);
+      flight.height = 40.0;
+      flight.estimate.p_NB_N.z() = -40.0;
+      if (by_pilot) flight.live(0.5, 1.0);
+      flight.v_down = flight.estimate.v_NB_B.z() = v_down;
+      double least = std::min(v_down, 0.0);
+      while (!flight.on_ground() && flight.estimate.stamp < std::chrono::seconds(300)) {
+        const double before = flight.height;
+        flight.live(VerticalFlight::kStep);
+        if (v_down >= 0.0) {
+          ASSERT_LE(flight.height, before + 1e-9) << v_down << " m/s";
+        }
+        ASSERT_GE(flight.v_down, least - 1e-9) << v_down << " m/s: it climbs faster";
+        least = std::min(flight.v_down, 0.0);
+      }
+      EXPECT_TRUE(flight.on_ground()) << v_down << " m/s";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ironbird::autopilot

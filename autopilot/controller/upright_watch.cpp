@@ -1,0 +1,40 @@
+#include "autopilot/controller/upright_watch.hpp"
+
+namespace ironbird::autopilot {
+
+namespace {
+
+constexpr double kOverturned = 0.5;     // cosine of 60 deg
+constexpr double kAskedUpright = 0.7;   // cosine of 45 deg
+constexpr double kLiesStill = 1.0;      // s
+constexpr double kOutOfControl = 3.0;   // s, several times what righting itself takes a vehicle that can
+constexpr double kRightedItself = 0.5;  // s, longer than a tumbling vehicle is upright
+
+}  // namespace
+
+void UprightWatch::look(const StateEstimate& estimate, bool usable, bool still,
+                        const std::optional<double>& asked, bool taken) {
+  if (!usable) {
+    lies_.forget();
+    return;
+  }
+  const Time now = estimate.stamp;
+  const bool leans = (estimate.q_NB * Vector3::UnitZ()).z() < kOverturned;
+  lies_.note(leans && still, now);
+  upright_.note(!leans, now);
+  const bool righted = upright_.lasts(kRightedItself, now);
+  const bool expected_upright = asked && *asked > kAskedUpright;
+  if (taken || !expected_upright || righted) {
+    out_of_control_.forget();
+  } else {
+    out_of_control_.note(leans || out_of_control_.so(), now);
+  }
+  if (out_of_control_.lasts(kOutOfControl, now)) given_up_ = true;
+  if (taken && righted) given_up_ = false;
+}
+
+bool UprightWatch::stops(Time now) const {
+  return given_up_ || lies_.lasts(kLiesStill, now);
+}
+
+}  // namespace ironbird::autopilot

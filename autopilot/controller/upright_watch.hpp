@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "autopilot/controller/since.hpp"
+#include "autopilot/types/state_estimate.hpp"
+
+namespace ironbird::autopilot {
+
+/// Sees that a vehicle lies on its side or back, or is out of control, so that its motors are to be stopped.
+///
+/// It lies when it leans more than 60 deg and neither moves nor turns for a second: nothing that flies does.
+/// It is out of control when it is asked to lean less than 45 deg, yet began to lean more than 60 deg three
+/// seconds ago and has not been upright for half a second at a stretch since. Who asks for rates or torques
+/// may fly as he likes. The second stays so until the motors are disarmed or the pilot has it upright again.
+class UprightWatch {
+ public:
+  /// One step.
+  /// @param usable  the estimate is
+  /// @param still  it neither moves nor turns
+  /// @param asked  cosine of the lean that was asked for; none: no attitude was
+  /// @param taken  pilot or failsafe have the vehicle
+  void look(const StateEstimate& estimate, bool usable, bool still, const std::optional<double>& asked,
+            bool taken);
+
+  /// The vehicle is to be given no thrust.
+  bool stops(Time now) const;
+
+  void reset() { *this = UprightWatch{}; }
+
+ private:
+  Since lies_;
+  Since upright_;
+  Since out_of_control_;
+  bool given_up_ = false;
+};
+
+}  // namespace ironbird::autopilot
