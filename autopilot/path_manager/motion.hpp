@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "autopilot/math/angles.hpp"
@@ -50,38 +51,59 @@ struct MotionLimits {
   }
 };
 
-/// Comes to rest along a straight line: v = v0 (1 - 3 tau^2 + 2 tau^3), the heading rate likewise. Position
-/// and velocity are continuous; the acceleration is 0 at both ends.
+/// Comes to rest: the velocity is a cubic in tau that begins with velocity and acceleration of the motion
+/// before and ends with none, the heading rate likewise. So position, velocity and acceleration are
+/// continuous.
+///
+/// With A the greatest acceleration allowed, or that at the beginning when it is greater, it lasts no shorter
+/// than 1.5 v0/(A - a0/3), with which none is exceeded; and so long that the acceleration changes by no more
+/// than A in kRise at either end, or a short brake would jerk the vehicle about.
 class Brake {
  public:
   Brake() = default;
 
-  /// Begins at `from` and ends at rest as soon as the limits on acceleration allow.
+  /// Begins at `from` and ends at rest as soon as the limits allow.
   Brake(const MotionPoint& from, const MotionLimits& limits)
       : from_(from),
-        duration_(kPeakSlope * std::max(from.v_N.norm() / limits.max_acceleration,
-                                        std::abs(from.heading_rate) / limits.max_heading_acceleration)) {}
+        duration_(std::max(shortest(from.v_N.norm(), from.a_N.norm(), limits.max_acceleration),
+                           shortest(std::abs(from.heading_rate), std::abs(from.heading_acceleration),
+                                    limits.max_heading_acceleration))) {}
 
   MotionPoint evaluate(double elapsed) const {
-    const double tau = duration_ > 0.0 ? std::clamp(elapsed / duration_, 0.0, 1.0) : 1.0;
-    const double way = duration_ * tau * (1.0 + tau * tau * (0.5 * tau - 1.0));
-    const double speed = 1.0 + tau * tau * (2.0 * tau - 3.0);
-    const double slowing = duration_ > 0.0 ? 6.0 * tau * (tau - 1.0) / duration_ : 0.0;
+    const double T = duration_;
+    const double tau = T > 0.0 ? std::clamp(elapsed / T, 0.0, 1.0) : 1.0;
+    // Shares of the velocity and of the acceleration at the beginning.
+    const double way_v = T * tau * (1.0 + tau * tau * (0.5 * tau - 1.0));
+    const double way_a = T * T * tau * tau * (0.5 + tau * (0.25 * tau - 2.0 / 3.0));
+    const double speed_v = 1.0 + tau * tau * (2.0 * tau - 3.0);
+    const double speed_a = T * tau * (1.0 + tau * (tau - 2.0));
+    const double slowing_v = T > 0.0 ? 6.0 * tau * (tau - 1.0) / T : 0.0;
+    const double slowing_a = T > 0.0 ? 1.0 + tau * (3.0 * tau - 4.0) : 0.0;
     MotionPoint point;
-    point.p_N = from_.p_N + way * from_.v_N;
-    point.v_N = speed * from_.v_N;
-    point.a_N = slowing * from_.v_N;
-    point.heading = wrap(from_.heading + way * from_.heading_rate);
-    point.heading_rate = speed * from_.heading_rate;
-    point.heading_acceleration = slowing * from_.heading_rate;
-    point.ended = elapsed >= duration_;
+    point.p_N = from_.p_N + way_v * from_.v_N + way_a * from_.a_N;
+    point.v_N = speed_v * from_.v_N + speed_a * from_.a_N;
+    point.a_N = slowing_v * from_.v_N + slowing_a * from_.a_N;
+    point.heading = wrap(from_.heading + way_v * from_.heading_rate + way_a * from_.heading_acceleration);
+    point.heading_rate = speed_v * from_.heading_rate + speed_a * from_.heading_acceleration;
+    point.heading_acceleration = slowing_v * from_.heading_rate + slowing_a * from_.heading_acceleration;
+    point.ended = elapsed >= T;
     return point;
   }
 
   double duration() const { return duration_; }
 
  private:
-  static constexpr double kPeakSlope = 1.5;  // of 3 tau^2 - 2 tau^3, at tau = 1/2
+  static constexpr double kRise = 0.3;  // s
+
+  /// @param v0  m/s, >= 0
+  /// @param a0  m/s^2, >= 0
+  static double shortest(double v0, double a0, double limit) {
+    const double most = std::max(limit, a0);
+    const double jerk = most / kRise;
+    // 6 v0/T^2 + 4 a0/T, the greatest change of the acceleration, at the beginning
+    const double smooth = (2.0 * a0 + std::sqrt(4.0 * a0 * a0 + 6.0 * v0 * jerk)) / jerk;
+    return std::max(1.5 * v0 / (most - a0 / 3.0), smooth);
+  }
 
   MotionPoint from_;
   double duration_ = 0.0;

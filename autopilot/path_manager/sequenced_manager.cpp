@@ -73,7 +73,9 @@ void SequencedManager::take_over(const Signals& signals) {
   if (!signals.flight.companion_flies() || !last.valid) return;
   MotionPoint from = resting_at(last.p_N, last.heading);
   from.v_N = last.v_N;
+  from.a_N = last.a_N;
   from.heading_rate = last.heading_rate;
+  from.heading_acceleration = last.heading_acceleration;
   brake(from);
 }
 

@@ -141,6 +141,52 @@ INSTANTIATE_TEST_SUITE_P(Slots, SwapTest,
                                            Swap{"Controller", "controller", "cascaded_controller"}),
                          [](const auto& case_) { return case_.param.name; });
 
+struct ManagerSwap {
+  const char* name;
+  const char* from;
+  const char* to;
+};
+
+class ManagerSwapTest : public ::testing::TestWithParam<ManagerSwap> {};
+
+/// One flight along a route with corners, in which the path manager is exchanged.
+class OneFlight : public AutopilotFlight {
+ public:
+  /// The greatest body rate in the second after the exchange, rad/s.
+  double twitch(const ManagerSwap& swap, double at) {
+    ask(SwapModule{"path_manager", swap.from, {}});
+    ask(RouteRequest{SetRoute{{place(15, 0, -6), place(15, 15, -8), place(0, 15, -6)}, false}});
+    take_off();
+    fly(at);
+    ask(SwapModule{"path_manager", swap.to, {}});
+    double greatest = 0.0;
+    until(1.0, [&](const Signals&) {
+      greatest = std::max(greatest, vehicle_.w_NB_B.norm());
+      return false;
+    });
+    return greatest;
+  }
+
+ private:
+  void TestBody() override {}
+};
+
+TEST_P(ManagerSwapTest, DoesNotMakeTheVehicleTwitchWheneverItComes) {
+  constexpr double kTwitch = 1.5;  // rad/s, 86 deg/s: what a leg of few centimetres asks for
+  for (double at = 0.5; at < 32.0; at += 0.5) {
+    OneFlight flight;
+    EXPECT_LT(flight.twitch(GetParam(), at), kTwitch) << at << " s after take-off";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Managers, ManagerSwapTest,
+    ::testing::Values(ManagerSwap{"LegsToLegs", "smoothstep_manager", "smoothstep_manager"},
+                      ManagerSwap{"LegsToCurves", "smoothstep_manager", "minimum_snap_manager"},
+                      ManagerSwap{"CurvesToLegs", "minimum_snap_manager", "smoothstep_manager"},
+                      ManagerSwap{"CurvesToCurves", "minimum_snap_manager", "minimum_snap_manager"}),
+    [](const auto& swap) { return swap.param.name; });
+
 using SwapSettingsTest = AutopilotFlight;
 
 TEST_F(SwapSettingsTest, GiveTheNewcomerItsOwnParametersBeforeItTakesOver) {

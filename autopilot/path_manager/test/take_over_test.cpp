@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <numbers>
+
+#include "autopilot/path_manager/minimum_snap_manager.hpp"
+#include "autopilot/path_manager/smoothstep_manager.hpp"
+#include "autopilot/path_manager/test/perfect_flight.hpp"
+#include "autopilot/signals.hpp"
+
+namespace ironbird::autopilot {
+namespace {
+
+constexpr double kRound = 1e-9;
+constexpr double kAtRest = 1e-4;  // m/s
+// A motion of least snap changes its acceleration by about 10 m/s^3 where legs meet.
+constexpr double kSteepest = 12.0;         // m/s^3
+constexpr double kSteepestHeading = 12.0;  // rad/s^3
+
+std::unique_ptr<PathManager> make(bool curves) {
+  if (curves) return std::make_unique<MinimumSnapManager>();
+  return std::make_unique<SmoothstepManager>();
+}
+
+std::vector<Waypoint> mission() {
+  return {waypoint(1, {15, 0, -6}, 0.0), waypoint(2, {15, 15, -8}, 2.5), waypoint(3, {0, 15, -6}, -2.0),
+          waypoint(4, {0, 0, -3}, 0.0)};
+}
+
+/// The reference goes from one point to the next within what a motion without a jump may do in a step.
+void expect_no_jump(const TrajectoryPoint& before, const TrajectoryPoint& now, double at) {
+  const double dt = PerfectFlight::kDt;
+  const double rise = dt * kSteepest;
+  EXPECT_LT((now.a_N - before.a_N).norm(), rise) << "at " << at << " s";
+  EXPECT_LT((now.v_N - before.v_N - 0.5 * dt * (before.a_N + now.a_N)).norm(), dt * rise + kRound) << at;
+  EXPECT_LT((now.p_N - before.p_N - 0.5 * dt * (before.v_N + now.v_N)).norm(), dt * dt * rise + kRound) << at;
+  EXPECT_LT(std::abs(now.heading_acceleration - before.heading_acceleration), dt * kSteepestHeading) << at;
+}
+
+struct Swap {
+  const char* name;
+  bool from_curves;
+  bool to_curves;
+};
+
+class TakeOverTest : public ::testing::TestWithParam<Swap> {};
+
+TEST_P(TakeOverTest, GoesOnWithPositionVelocityAndAccelerationWheneverItComes) {
+  for (double at = 0.1; at < 45.0; at += 0.1) {
+    const std::unique_ptr<PathManager> first = make(GetParam().from_curves);
+    PerfectFlight before(*first);
+    before.set(mission());
+    before.fly(at);
+    Signals signals;
+    signals.route = before.route;
+    signals.estimate = before.estimate;
+    signals.flight = before.flight;
+    signals.trajectory = before.last;
+    const std::unique_ptr<PathManager> second = make(GetParam().to_curves);
+    second->take_over(signals);
+    PerfectFlight after(*second);
+    after.route = before.route;
+    after.estimate = before.estimate;
+    TrajectoryPoint last = before.last;
+    after.until(3.0, [&](const TrajectoryPoint& now) {
+      expect_no_jump(last, now, at);
+      last = now;
+      return HasFailure() || now.v_N.norm() < kAtRest;  // then a new motion begins, which may be short and sharp
+    });
+    if (HasFailure()) break;
+  }
+}
+
+TEST_P(TakeOverTest, BrakesWithoutAJumpWheneverAHoldIsAskedFor) {
+  for (double at = 0.1; at < 45.0; at += 0.1) {
+    const std::unique_ptr<PathManager> manager = make(GetParam().to_curves);
+    PerfectFlight flight(*manager);
+    flight.set(mission());
+    flight.fly(at);
+    ++flight.route.holds;
+    TrajectoryPoint last = flight.last;
+    flight.until(3.0, [&](const TrajectoryPoint& now) {
+      expect_no_jump(last, now, at);
+      last = now;
+      return HasFailure() || now.v_N.norm() < kAtRest;  // then a new motion begins, which may be short and sharp
+    });
+    if (HasFailure()) break;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Managers, TakeOverTest,
+                         ::testing::Values(Swap{"LegsAfterLegs", false, false},
+                                           Swap{"CurvesAfterLegs", false, true},
+                                           Swap{"LegsAfterCurves", true, false},
+                                           Swap{"CurvesAfterCurves", true, true}),
+                         [](const auto& swap) { return swap.param.name; });
+
+TEST(BrakeTest, ExceedsNeitherTheLimitNorWhatItBeganWith) {
+  const MotionLimits limits;
+  for (const double v0 : {0.0, 0.05, 0.5, 3.0, 10.0}) {
+    for (const double a0 : {0.0, 0.3, 1.5, 2.5, 4.0}) {
+      for (double angle = 0.0; angle < 3.2; angle += 0.4) {
+        MotionPoint from;
+        from.v_N << v0, 0.0, 0.0;
+        from.a_N << a0 * std::cos(angle), a0 * std::sin(angle), 0.0;
+        const Brake brake(from, limits);
+        const double most = std::max(limits.max_acceleration, a0);
+        for (double tau = 0.0; tau <= 1.0; tau += 0.01) {
+          ASSERT_LE(brake.evaluate(tau * brake.duration()).a_N.norm(), most + kRound)
+              << v0 << " m/s, " << a0 << " m/s^2, " << angle;
+        }
+        const MotionPoint end = brake.evaluate(brake.duration());
+        EXPECT_TRUE(end.ended);
+        EXPECT_LT(end.v_N.norm() + end.a_N.norm(), kRound);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ironbird::autopilot
