@@ -1,7 +1,5 @@
 #include "autopilot/autopilot.hpp"
 
-#include <array>
-#include <charconv>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -82,34 +80,6 @@ std::string_view name_of(SetOutcome outcome) {
   return "";
 }
 
-std::string rounded(double value, int decimals = 2) {
-  std::array<char, 64> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals);
-  return {text.data(), end.ptr};
-}
-
-/// One line about a waypoint, for people.
-std::string line_about(const Waypoint& waypoint, std::size_t index) {
-  std::string line = std::to_string(index) + ": ";
-  for (const auto& [value, name] : enumerators(waypoint.kind)) {
-    if (value == waypoint.kind) line += name;
-  }
-  if (waypoint.geodetic) {
-    const GeodeticPosition& where = *waypoint.geodetic;
-    line += " at latitude " + rounded(where.latitude, 9) + " rad, longitude " + rounded(where.longitude, 9) +
-            " rad, altitude " + rounded(where.altitude) + " m";
-  } else {
-    line += " at (" + rounded(waypoint.p_N.x()) + ", " + rounded(waypoint.p_N.y()) + ", " +
-            rounded(waypoint.p_N.z()) + ") m";
-  }
-  line += ", heading " + rounded(waypoint.heading) + " rad";
-  if (waypoint.speed > 0.0) line += ", at most " + rounded(waypoint.speed) + " m/s";
-  if (waypoint.kind != WaypointKind::kHold) return line;
-  return line +
-         (waypoint.hold_indefinitely ? ", until released" : ", for " + rounded(waypoint.hold_time) + " s");
-}
-
 }  // namespace
 
 Autopilot::Autopilot(const AutopilotConfig& config, const Modules& modules)
@@ -143,10 +113,12 @@ const FcuCommand& Autopilot::step(const SensorFrame& frame) {
 
 RequestOutcome Autopilot::request(const Request& request) {
   if (const auto* wish = std::get_if<RouteRequest>(&request)) {
+    const bool stands = controller_->phase() == FlightPhase::kDisarmed || controller_->memory().on_ground;
+    if (std::holds_alternative<ReturnToLaunch>(*wish) && stands) return {false, "it is on the ground"};
     if (path_planner_->request(*wish, signals_.estimate)) return {true, ""};
     return {false, "the path planner cannot do this with the present route"};
   }
-  if (std::holds_alternative<ListRoute>(request)) return list();
+  if (std::holds_alternative<ListRoute>(request)) return {true, "", path_planner_->wanted()};
   if (const auto* wish = std::get_if<SetParameter>(&request)) return set(*wish);
   if (const auto* wish = std::get_if<SwapModule>(&request)) return swap(*wish);
   if (const auto* wish = std::get_if<OverrideSetpoint>(&request)) return fly(*wish);
@@ -157,28 +129,22 @@ RequestOutcome Autopilot::request(const Request& request) {
 }
 
 RequestOutcome Autopilot::set(const SetParameter& wish) {
-  std::string conflict;
-  const SetOutcome outcome = parameters_.set(wish.path, wish.value, &conflict);
+  std::string why;
+  const bool in_flight = signals_.flight.fcu.armed && controller_->phase() != FlightPhase::kDisarmed;
+  const SetOutcome outcome = parameters_.set(wish.path, wish.value, in_flight, &why);
   if (outcome == SetOutcome::kAccepted) {
     std::erase_if(asked_, [&](const ParameterSetting& setting) { return setting.first == wish.path; });
     asked_.emplace_back(wish.path, wish.value);
     return {true, ""};
   }
   std::string reason = wish.path + ": " + std::string(name_of(outcome));
-  if (outcome == SetOutcome::kConflict) reason += ", " + conflict;
+  if (!why.empty()) reason += ", " + why;
   if (outcome == SetOutcome::kOutOfBounds) {
     const ParameterSlot& slot = *parameters_.find(wish.path);
     reason += ", must be within " + std::to_string(slot.lower) + " and " + std::to_string(slot.upper) + " " +
               slot.unit;
   }
   return {false, reason};
-}
-
-RequestOutcome Autopilot::list() const {
-  RequestOutcome outcome{true, ""};
-  const std::vector<Waypoint>& wanted = path_planner_->wanted();
-  for (std::size_t i = 0; i < wanted.size(); ++i) outcome.answer.push_back(line_about(wanted[i], i));
-  return outcome;
 }
 
 RequestOutcome Autopilot::fly(const OverrideSetpoint& wish) {

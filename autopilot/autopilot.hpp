@@ -74,7 +74,6 @@ class Autopilot {
  private:
   RequestOutcome swap(const SwapModule& wish);
   RequestOutcome set(const SetParameter& wish);
-  RequestOutcome list() const;
   RequestOutcome fly(const OverrideSetpoint& wish);
   FlightStatus offered_flight() const;
   void note_flight();

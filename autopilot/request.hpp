@@ -58,7 +58,7 @@ struct HoldHere {
 };
 /// Ends a hold.
 struct Release {};
-/// Flies back to where the vehicle took off and lands there.
+/// Flies back to where the vehicle took off and lands there. Refused on the ground.
 struct ReturnToLaunch {};
 
 using RouteRequest =
@@ -71,7 +71,7 @@ struct TakeOff {};
 struct Land {};
 /// Ends a descent, or the silence after the estimate was lost: holds, then flies on.
 struct Resume {};
-/// Asks for the waypoints that are wanted; the answer has a line for each.
+/// Asks for the waypoints that are wanted.
 struct ListRoute {};
 /// Sets one parameter. No `describe`: the value may be of three types.
 struct SetParameter {
@@ -99,13 +99,13 @@ using Request =
 struct RequestOutcome {
   bool accepted = false;
   std::string reason;
-  std::vector<std::string> answer = {};
+  std::vector<Waypoint> waypoints = {};
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("accepted", self.accepted, "1", "it is done, or will be at the next step");
     visit("reason", self.reason, "", "why it was refused; empty when it was not");
-    visit("answer", self.answer, "", "lines for whoever asked a question");
+    visit("waypoints", self.waypoints, "", "those wanted, for whoever asked for the list");
   }
 };
 

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "autopilot/math/pid.hpp"
+#include "autopilot/module/live_change.hpp"
 
 namespace ironbird::autopilot {
 
@@ -65,7 +66,45 @@ struct CascadeParams {
     return {};
   }
 
+  static std::string_view danger(const CascadeParams& was, const CascadeParams& now) {
+    const double weight = was.mass * was.gravity;  // N
+    if (!stays(now.mass, was.mass, kLittle) || !stays(now.gravity, was.gravity, kLittle) ||
+        !stays(now.equilibrium_throttle, was.equilibrium_throttle, kLittle)) {
+      return "mass, gravity and equilibrium_throttle must stay within a quarter of what was configured";
+    }
+    if (!stays_above(now.max_thrust, was.max_thrust, 1.3 * weight) ||
+        !stays_above(now.max_throttle, was.max_throttle, 1.15 * was.equilibrium_throttle)) {
+      return "max_thrust and max_throttle must leave enough to climb";
+    }
+    if (!stays_below(now.min_thrust, was.min_thrust, 0.5 * weight) ||
+        !stays_below(now.min_throttle, was.min_throttle, 0.7 * was.equilibrium_throttle)) {
+      return "min_thrust and min_throttle must leave enough to sink";
+    }
+    if (now.min_altitude_for_attitude_control > was.min_altitude_for_attitude_control) {
+      return "min_altitude_for_attitude_control must not grow";
+    }
+    if (!steerable(was, now)) {
+      return "torques, and gains of roll and pitch, must stay within a third and three times what was "
+             "configured";
+    }
+    const bool brakes = stays_above(now.max_climb_acceleration, was.max_climb_acceleration, 2.0) &&
+                        stays_above(now.max_descent_acceleration, was.max_descent_acceleration, 1.0);
+    return brakes ? "" : "max_climb_acceleration and max_descent_acceleration must stay above 2 and 1 m/s^2";
+  }
+
  private:
+  static bool steerable(const CascadeParams& was, const CascadeParams& now) {
+    const auto near = [](const PidGains& a, const PidGains& b) {
+      return stays(a.kp, b.kp, kMuch) && stays(a.kd, b.kd, kMuch);
+    };
+    return stays(now.max_roll_torque, was.max_roll_torque, kMuch) &&
+           stays(now.max_pitch_torque, was.max_pitch_torque, kMuch) &&
+           stays(now.max_yaw_torque, was.max_yaw_torque, kMuch) &&
+           near(now.roll_to_torque, was.roll_to_torque) && near(now.pitch_to_torque, was.pitch_to_torque) &&
+           near(now.roll_rate_to_torque, was.roll_rate_to_torque) &&
+           near(now.pitch_rate_to_torque, was.pitch_rate_to_torque);
+  }
+
   template <class Self, class Visit>
   static void describe_limits(Self& self, Visit& visit) {
     visit("equilibrium_throttle", self.equilibrium_throttle, "1", "throttle that carries the weight", 0.05,

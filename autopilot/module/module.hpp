@@ -42,8 +42,15 @@ class Module {
   /// Registers the module's parameters under `prefix`. Tunable does this.
   virtual void register_parameters(ParameterTable&, const std::string& /*prefix*/) {}
 
-  /// Called after a parameter changed, between two ticks.
+  /// Called after a parameter changed in flight, between two ticks.
   virtual void parameters_changed() {}
+
+  /// Called after parameters were set before flight: they are what the module is configured to.
+  virtual void parameters_configured() { parameters_changed(); }
+
+  /// Which of the present parameters is so far from what was configured that a vehicle in flight could come
+  /// down; empty when none is.
+  virtual std::string_view parameter_danger() const { return {}; }
 
   /// Which of the present parameters do not fit together; empty when all do.
   virtual std::string_view parameter_conflict() const { return {}; }

@@ -69,18 +69,28 @@ std::optional<ParameterValue> ParameterTable::get(std::string_view path) const {
   return value_of(*slot);
 }
 
-SetOutcome ParameterTable::set(std::string_view path, const ParameterValue& value, std::string* conflict) {
+SetOutcome ParameterTable::set(std::string_view path, const ParameterValue& value, bool in_flight,
+                               std::string* reason) {
   const ParameterSlot* slot = find(path);
   if (slot == nullptr) return SetOutcome::kUnknown;
   const ParameterValue before = value_of(*slot);
   const SetOutcome outcome = put(*slot, value);
   if (outcome != SetOutcome::kAccepted || slot->owner == nullptr) return outcome;
-  if (const std::string_view reason = slot->owner->parameter_conflict(); !reason.empty()) {
+  const auto refuse = [&](SetOutcome refusal, std::string_view why) {
     put(*slot, before);
-    if (conflict != nullptr) *conflict = reason;
-    return SetOutcome::kConflict;
+    if (reason != nullptr) *reason = why;
+    return refusal;
+  };
+  Module& owner = *slot->owner;
+  if (const std::string_view why = owner.parameter_conflict(); !why.empty())
+    return refuse(SetOutcome::kConflict, why);
+  if (!in_flight) {
+    owner.parameters_configured();
+    return outcome;
   }
-  slot->owner->parameters_changed();
+  if (const std::string_view why = owner.parameter_danger(); !why.empty())
+    return refuse(SetOutcome::kNotInFlight, why);
+  owner.parameters_changed();
   return outcome;
 }
 
@@ -97,7 +107,7 @@ std::string ParameterTable::set_all(const std::vector<ParameterSetting>& setting
     const std::string_view reason = told->parameter_conflict();
     if (!reason.empty() && conflict.empty())
       conflict = path.substr(0, path.find('.')) + "." + std::string(reason);
-    told->parameters_changed();
+    told->parameters_configured();
   }
   return conflict;
 }

@@ -36,16 +36,18 @@ enum class SetOutcome : std::uint8_t {
   kWrongType,
   kOutOfBounds,
   kNotFinite,
-  kConflict  ///< it does not fit the other parameters of its module
+  kConflict,    ///< it does not fit the other parameters of its module
+  kNotInFlight  ///< the vehicle could fall or turn over
 };
 
-constexpr std::array<std::pair<SetOutcome, std::string_view>, 6> enumerators(SetOutcome) {
+constexpr std::array<std::pair<SetOutcome, std::string_view>, 7> enumerators(SetOutcome) {
   return {{{SetOutcome::kAccepted, "accepted"},
            {SetOutcome::kUnknown, "unknown"},
            {SetOutcome::kWrongType, "wrong type"},
            {SetOutcome::kOutOfBounds, "out of bounds"},
            {SetOutcome::kNotFinite, "not finite"},
-           {SetOutcome::kConflict, "does not fit"}}};
+           {SetOutcome::kConflict, "does not fit"},
+           {SetOutcome::kNotInFlight, "not in flight"}}};
 }
 
 /// A parameter and the value it is to have.
@@ -64,8 +66,11 @@ class ParameterTable {
   void remove(std::string_view prefix);
 
   /// Sets one parameter and tells its module. Refused whole, with the reason, or done whole.
-  /// @param conflict  what does not fit together, after kConflict
-  SetOutcome set(std::string_view path, const ParameterValue& value, std::string* conflict = nullptr);
+  /// @param in_flight  a value that could bring the vehicle down is refused; otherwise it is what it is
+  /// configured to
+  /// @param reason     what does not fit together, after kConflict, or what must stay, after kNotInFlight
+  SetOutcome set(std::string_view path, const ParameterValue& value, bool in_flight = false,
+                 std::string* reason = nullptr);
 
   /// Sets many parameters; only the last state need fit together. Those that cannot be set are passed over.
   /// @return what does not fit together, after the prefix of the module; empty when all does

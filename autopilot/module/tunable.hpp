@@ -12,28 +12,41 @@ namespace ironbird::autopilot {
 ///
 /// @tparam Base    the module interface, for example Estimator
 /// @tparam Params  a struct with `describe`; its member initialisers are the defaults. When some values do
-///                 not fit together it has `static std::string_view conflict(const Params&)`
+///                 not fit together it has `static std::string_view conflict(const Params&)`; when some may
+///                 not change much in flight, `static std::string_view danger(const Params& configured, const
+///                 Params& now)`
 template <class Base, class Params>
 class Tunable : public Base {
  public:
   Tunable() = default;
-  explicit Tunable(Params params) : params_(std::move(params)) {}
+  explicit Tunable(Params params) : params_(std::move(params)), configured_(params_) {}
 
   const Params& params() const { return params_; }
 
   /// Replaces all parameters at once and rebuilds what depends on them.
   void set_params(const Params& params) {
     params_ = params;
-    on_parameters();
+    parameters_configured();
   }
 
   void register_parameters(ParameterTable& table, const std::string& prefix) final {
     table.add(prefix, params_, this);
   }
   void parameters_changed() final { on_parameters(); }
+  void parameters_configured() final {
+    configured_ = params_;
+    on_parameters();
+  }
   std::string_view parameter_conflict() const final {
     if constexpr (requires { Params::conflict(params_); }) {
       return Params::conflict(params_);
+    } else {
+      return {};
+    }
+  }
+  std::string_view parameter_danger() const final {
+    if constexpr (requires { Params::danger(configured_, params_); }) {
+      return Params::danger(configured_, params_);
     } else {
       return {};
     }
@@ -45,6 +58,7 @@ class Tunable : public Base {
 
  private:
   Params params_;
+  Params configured_ = params_;
 };
 
 }  // namespace ironbird::autopilot

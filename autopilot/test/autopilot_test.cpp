@@ -253,10 +253,22 @@ TEST_F(AutopilotTest, ListsTheWaypointsThatAreWanted) {
   ask(RouteRequest{SetRoute{{place(0, 0, -5), second}, false}});
   const RequestOutcome outcome = autopilot_.request(ListRoute{});
   ASSERT_TRUE(outcome.accepted);
-  ASSERT_EQ(outcome.answer.size(), 2u);
-  EXPECT_EQ(outcome.answer[0], "0: goto at (0.00, 0.00, -5.00) m, heading 0.00 rad");
-  EXPECT_EQ(outcome.answer[1],
-            "1: hold at (-20.00, 0.50, -8.00) m, heading 0.00 rad, at most 1.50 m/s, for 10.00 s");
+  ASSERT_EQ(outcome.waypoints.size(), 2u);
+  EXPECT_EQ(outcome.waypoints[0].p_N, Vector3(0, 0, -5));
+  EXPECT_EQ(outcome.waypoints[1].kind, WaypointKind::kHold);
+  EXPECT_EQ(outcome.waypoints[1].hold_time, 10.0);
+}
+
+TEST_F(AutopilotTest, RefusesToReturnToLaunchOnTheGroundBeforeAndAfterAFlight) {
+  const auto refusal = [&] { return autopilot_.request(RouteRequest{ReturnToLaunch{}}).reason; };
+  ask(RouteRequest{SetRoute{{place(0, 0, -3)}, false}});
+  step();
+  EXPECT_EQ(refusal(), "it is on the ground");
+  take_off();
+  fly(3.0);
+  EXPECT_EQ(refusal(), "");
+  ASSERT_TRUE(until(40.0, [](const Signals& s) { return s.flight.memory.on_ground; }));
+  EXPECT_EQ(refusal(), "it is on the ground");
 }
 
 TEST_F(AutopilotTest, RefusesASetpointWhileItDescendsUntilAskedToResume) {

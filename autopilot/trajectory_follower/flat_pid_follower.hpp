@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "autopilot/math/pid.hpp"
+#include "autopilot/module/live_change.hpp"
 #include "autopilot/module/tunable.hpp"
 #include "autopilot/trajectory_follower/trajectory_follower.hpp"
 
@@ -52,6 +53,26 @@ struct FlatPidFollowerParams {
   static std::string_view conflict(const FlatPidFollowerParams& p) {
     if (p.min_thrust >= p.max_thrust) return "min_thrust must be less than max_thrust";
     return {};
+  }
+
+  static std::string_view danger(const FlatPidFollowerParams& was, const FlatPidFollowerParams& now) {
+    const double weight = was.mass * was.gravity;  // N
+    if (!stays(now.mass, was.mass, kLittle) || !stays(now.gravity, was.gravity, kLittle)) {
+      return "mass and gravity must stay within a quarter of what was configured";
+    }
+    if (!stays_above(now.max_thrust, was.max_thrust, 1.3 * weight)) {
+      return "max_thrust must leave enough to climb";
+    }
+    if (!stays_below(now.min_thrust, was.min_thrust, 0.5 * weight) ||
+        !stays_below(now.min_lift, was.min_lift, 0.5 * was.gravity)) {
+      return "min_thrust and min_lift must leave enough to sink";
+    }
+    const auto near = [](const PidGains& a, const PidGains& b) {
+      return stays(a.kp, b.kp, kMuch) && stays(a.kd, b.kd, kMuch);
+    };
+    return near(now.north, was.north) && near(now.east, was.east) && near(now.down, was.down)
+               ? ""
+               : "gains of the position must stay within a third and three times what was configured";
   }
 };
 

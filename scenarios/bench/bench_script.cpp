@@ -8,6 +8,7 @@
 #include "scenarios/bench/bench.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
+#include "scenarios/bench/waypoint_text.hpp"
 #include "scenarios/requirements/number_text.hpp"
 
 namespace ironbird::scenarios {
@@ -164,7 +165,8 @@ bool Bench::ask(const autopilot::Request& request, const std::string& what, Time
   }
   judge_->event(now, outcome.accepted ? "request" : "refused",
                 outcome.accepted ? what : what + ": " + outcome.reason);
-  for (const std::string& line : outcome.answer) judge_->event(now, "answer", line);
+  for (std::size_t i = 0; i < outcome.waypoints.size(); ++i)
+    judge_->event(now, "answer", line_about(outcome.waypoints[i], i));
   return outcome.accepted;
 }
 

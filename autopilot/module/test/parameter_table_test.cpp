@@ -88,7 +88,7 @@ TEST(ParameterConflictTest, IsRefusedWhenOneValueIsSetAndLeavesItAsItWas) {
   ParameterTable table;
   range.register_parameters(table, "slot");
   std::string conflict;
-  EXPECT_EQ(table.set("slot.least", 2.0, &conflict), SetOutcome::kConflict);
+  EXPECT_EQ(table.set("slot.least", 2.0, false, &conflict), SetOutcome::kConflict);
   EXPECT_EQ(conflict, "least must be less than most");
   EXPECT_EQ(range.params().least, 0.0);
 }

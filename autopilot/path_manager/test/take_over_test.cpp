@@ -65,7 +65,8 @@ TEST_P(TakeOverTest, GoesOnWithPositionVelocityAndAccelerationWheneverItComes) {
     after.until(3.0, [&](const TrajectoryPoint& now) {
       expect_no_jump(last, now, at);
       last = now;
-      return HasFailure() || now.v_N.norm() < kAtRest;  // then a new motion begins, which may be short and sharp
+      return HasFailure() ||
+             now.v_N.norm() < kAtRest;  // then a new motion begins, which may be short and sharp
     });
     if (HasFailure()) break;
   }
@@ -82,7 +83,8 @@ TEST_P(TakeOverTest, BrakesWithoutAJumpWheneverAHoldIsAskedFor) {
     flight.until(3.0, [&](const TrajectoryPoint& now) {
       expect_no_jump(last, now, at);
       last = now;
-      return HasFailure() || now.v_N.norm() < kAtRest;  // then a new motion begins, which may be short and sharp
+      return HasFailure() ||
+             now.v_N.norm() < kAtRest;  // then a new motion begins, which may be short and sharp
     });
     if (HasFailure()) break;
   }
