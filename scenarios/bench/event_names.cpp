@@ -44,8 +44,19 @@ std::size_t longest_route(const Scenario& scenario) {
   return asks_for(scenario, OperatorWish::kReturnToLaunch) ? std::max(count, kReturnWaypoints) : count;
 }
 
+std::size_t reachable_waypoints(const Scenario& scenario) {
+  const auto times = [&](OperatorWish wish) {
+    return static_cast<std::size_t>(
+        std::count_if(scenario.events.begin(), scenario.events.end(),
+                      [&](const EventConfig& event) { return event.request == wish; }));
+  };
+  const std::size_t take_offs = times(OperatorWish::kTakeOff) + (scenario.pilot.automatic ? 1 : 0);
+  return longest_mission(scenario) * std::max<std::size_t>(take_offs, 1) +
+         kReturnWaypoints * times(OperatorWish::kReturnToLaunch);
+}
+
 EventNames::EventNames(const Scenario& scenario) {
-  if (!scenario.cyclic) waypoints_ = longest_route(scenario);
+  if (!scenario.cyclic) waypoints_ = reachable_waypoints(scenario);
   add_flight(scenario);
   add_waypoints(scenario);
   add_own(scenario);

@@ -13,6 +13,10 @@ namespace ironbird::scenarios {
 /// The most waypoints that the mission of this scenario can have: its own and those that events add.
 std::size_t longest_mission(const Scenario& scenario);
 
+/// The most waypoints that can be reached in a run of this scenario, whose route is not cyclic: the mission
+/// in every flight, and each return to launch.
+std::size_t reachable_waypoints(const Scenario& scenario);
+
 /// The most waypoints that the route of a run of this scenario can have at once.
 std::size_t longest_route(const Scenario& scenario);
 

@@ -84,9 +84,10 @@ void EventDetector::report(const Seen& fresh, double time, Timeline& timeline) {
   if (fresh.position_resets > seen_.position_resets) {
     timeline.add(time, "position_reset", with_unit(signals_.estimate.position_reset_N.norm(), "m"));
   }
-  const std::uint32_t counted_from = fresh.reached < seen_.reached ? 0 : seen_.reached;
-  for (std::uint32_t i = counted_from + 1; i <= fresh.reached; ++i) {
-    timeline.add(time, "waypoint", "waypoint_" + std::to_string(i));
+  const bool another_route = fresh.reached < seen_.reached;
+  if (another_route) of_routes_before_ += seen_.reached;
+  for (std::uint32_t i = another_route ? 1 : seen_.reached + 1; i <= fresh.reached; ++i) {
+    timeline.add(time, "waypoint", "waypoint_" + std::to_string(of_routes_before_ + i));
   }
   if (fresh.finished && !seen_.finished) timeline.add(time, "waypoint", "route_finished");
   seen_ = fresh;

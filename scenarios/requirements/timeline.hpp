@@ -62,10 +62,11 @@ class Timeline {
 };
 
 /// Turns changes of the autopilot's signals into events: phases of flight (`offboard`), arming (`armed`,
-/// `unarmed`), waypoints (`waypoint_1` for the first one reached, `route_finished`), health of the estimate
-/// (`degraded`), doubt about the position (`doubtful`, `sure`; by how much the fixes have stepped is
-/// `gnss_step`), a position that jumps (`position_reset`), an origin that moves (`origin_moved`), and why the
-/// phase changed when nobody asked for it (`cause:position_unknown`).
+/// `unarmed`), waypoints (`waypoint_1` for the first one reached, and on from there through every route and
+/// flight of the run, `route_finished`), health of the estimate (`degraded`), doubt about the position
+/// (`doubtful`, `sure`; by how much the fixes have stepped is `gnss_step`), a position that jumps
+/// (`position_reset`), an origin that moves (`origin_moved`), and why the phase changed when nobody asked for
+/// it (`cause:position_unknown`).
 ///
 /// A health that worsens is an event at once; one that betters, when it has lasted half a second: a sensor
 /// that fails now and then makes one event, not hundreds.
@@ -113,6 +114,7 @@ class EventDetector {
   Seen seen_;
   autopilot::Vector3 offset_N_ = autopilot::Vector3::Zero();
   autopilot::LocalOrigin origin_;
+  std::uint32_t of_routes_before_ = 0;  // waypoints reached
   bool betters_ = false;
   double better_since_ = 0.0;  // s
 };

@@ -55,6 +55,16 @@ TEST(EventNamesTest, CountsTheWaypointsThatThereCanBe) {
   detour.add_waypoint.emplace();
   scenario.events = {detour};
   EXPECT_EQ(of_deed(scenario, "waypoint_4"), "");
+  EventConfig homeward = deed("homeward", "");
+  homeward.request = OperatorWish::kReturnToLaunch;
+  scenario.events.push_back(homeward);
+  EXPECT_EQ(of_deed(scenario, "waypoint_6"), "") << "the way home is counted on";
+  EXPECT_NE(of_deed(scenario, "waypoint_7"), "");
+  EventConfig again = deed("again", "");
+  again.request = OperatorWish::kTakeOff;
+  scenario.events.push_back(again);
+  EXPECT_EQ(of_deed(scenario, "waypoint_10"), "");
+  scenario.events = {detour};
   scenario.cyclic = true;
   EXPECT_EQ(of_deed(scenario, "waypoint_700"), "");
   EXPECT_NE(of_deed(scenario, "route_finished"), "");

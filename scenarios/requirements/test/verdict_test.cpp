@@ -247,6 +247,18 @@ TEST_F(JudgeTest, SeesPhasesArmingAndWaypointsAsEvents) {
   EXPECT_EQ(judge.events()[1].time, 0.01);
 }
 
+TEST_F(JudgeTest, NamesNoWaypointTwiceWhateverRoutesThereAre) {
+  Judge judge({}, table_, {&truth_, &signals_}, 10ms);
+  auto time = 0ms;
+  for (const std::uint32_t reached : {0U, 1U, 2U, 0U, 0U, 2U, 0U, 1U}) {
+    signals_.trajectory.reached = reached;
+    judge.observe(time += 10ms);
+  }
+  std::string all;
+  for (const RunEvent& event : judge.events()) all += event.text + " ";
+  EXPECT_EQ(all, "waypoint_1 waypoint_2 waypoint_3 waypoint_4 waypoint_5 ");
+}
+
 TEST_F(JudgeTest, SaysWhyThePhaseChangedWhenNobodyAskedForIt) {
   Judge judge({}, table_, {&truth_, &signals_}, 10ms);
   judge.observe(0ms);
