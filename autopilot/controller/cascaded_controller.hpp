@@ -91,10 +91,10 @@ struct CascadedControllerParams : CascadeParams, RestLimits {
 ///
 /// The FCU alone can disarm: after touch-down the controller asks for no thrust until the pilot disarms.
 /// While the pilot or a failsafe has the vehicle, all integrals are 0 and the point to hold is where the
-/// vehicle would come to rest; when it lies on the ground meanwhile, it needs a new request to take off. With a
-/// position in doubt it holds, then lands on the spot; without one it descends level; without a usable estimate
-/// it is kept level as far as is known for `silence_patience`, then nothing is sent, and the FCU's own time-out
-/// decides.
+/// vehicle would come to rest; when it lies on the ground meanwhile, it needs a new request to take off. With
+/// a position in doubt it holds, then lands on the spot; without one it descends level; without a usable
+/// estimate it is kept level as far as is known for `silence_patience`, then nothing is sent, and the FCU's
+/// own time-out decides.
 class CascadedController final : public Tunable<Controller, CascadedControllerParams> {
  public:
   CascadedController() : cascade_(params()) {}
