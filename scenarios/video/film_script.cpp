@@ -248,10 +248,9 @@ class Director {
 
 FilmScript film_script(const Log& log, const FilmOptions& options) {
   FilmScript script;
-  const std::filesystem::path root = std::filesystem::absolute(options.project_root);
-  script.renderer = {(root / metadata(log, "vehicle", "models/x650") / "scene.xml").string(),
-                     (root / metadata(log, "field", "models/fields/flat.xml")).string(), options.width,
-                     options.height, options.quality};
+  script.renderer = {std::filesystem::absolute(options.vehicle_scene).string(),
+                     std::filesystem::absolute(options.field).string(), options.width, options.height,
+                     options.quality};
   script.frame_rate = options.frame_rate;
   script.title = metadata(log, "title", "");
   const double route_end = read_route(log, script);

@@ -176,7 +176,8 @@ TEST_F(FilmTest, IsMadeFromALog) {
     recorder.close();
   }
   FilmOptions options;
-  options.project_root = IRONBIRD_SOURCE_DIR;
+  options.vehicle_scene = IRONBIRD_SOURCE_DIR "/models/x650/scene.xml";
+  options.field = IRONBIRD_SOURCE_DIR "/models/fields/yard.xml";
   options.cameras = {{"tower", {{9, 9, -9}, {0, 0, 0}, 0.7}}};
   options.cuts = {{1.0, "tower"}};
   const Log log = Log::read(folder_ / "flight.mcap");
