@@ -5,7 +5,7 @@
 
 namespace ironbird::scenarios {
 
-/// What pictures of a run are drawn from.
+/// What pictures of a run are drawn from: absolute paths without symbolic links.
 struct SceneFiles {
   std::filesystem::path vehicle;  ///< scene.xml in the vehicle's folder
   std::filesystem::path field;

@@ -56,7 +56,8 @@ std::string vehicles_in(const std::vector<fs::path>& folders) {
 
 std::string fields_in(const std::vector<fs::path>& folders) {
   std::set<std::string> names;
-  for (const fs::path& folder : folders) add_names(folder / "models/fields", "models/fields/", is_field, names);
+  for (const fs::path& folder : folders)
+    add_names(folder / "models/fields", "models/fields/", is_field, names);
   return joined(names);
 }
 

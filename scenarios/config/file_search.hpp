@@ -6,9 +6,9 @@
 
 namespace ironbird::scenarios {
 
-/// Where what a file names is looked for, in this order: in the file's own folder and every folder above it, in
-/// Ironbird's own tree, in the working folder and every folder above it. So a scenario finds its neighbours
-/// wherever it lies, and the models that ship wherever it is started from.
+/// Where what a file names is looked for, in this order: in the file's own folder and every folder above it,
+/// in Ironbird's own tree, in the working folder and every folder above it. So a scenario finds its
+/// neighbours wherever it lies, and the models that ship wherever it is started from.
 /// @param named_in  the file that says the name; it need not exist
 std::vector<std::filesystem::path> search_folders(const std::filesystem::path& named_in);
 

@@ -13,11 +13,14 @@ namespace {
 class OwnFolderTest : public ::testing::Test {
  protected:
   OwnFolderTest() {
-    run_shell("cp -r models/x650 " + (folder_ / "my_quad").string() + " && mkdir " + (folder_ / "missions").string());
+    run_shell("cp -r models/x650 " + (folder_ / "my_quad").string() + " && mkdir " +
+              (folder_ / "missions").string());
   }
 
   /// Runs the program from a folder that has nothing to do with the scenario nor with the tree.
-  Said from_elsewhere(const std::string& words) const { return run_shell("cd / && " + kProgram + " " + words); }
+  Said from_elsewhere(const std::string& words) const {
+    return run_shell("cd / && " + kProgram + " " + words);
+  }
 
   std::string out() const { return " --out " + (folder_ / "out").string(); }
 
@@ -43,8 +46,8 @@ TEST_F(OwnFolderTest, FliesAVehicleBesideTheScenarioOrRelativeToIt) {
 
 TEST_F(OwnFolderTest, TakesAVehicleOnTheCommandLineFromTheWorkingFolder) {
   const std::string file = folder_.write("missions/d.toml", kMission);
-  const Said said = run_shell("cd " + folder_.text() + " && " + kProgram + " run missions/d.toml --no-log" + out() +
-                              " --set vehicle=my_quad");
+  const Said said = run_shell("cd " + folder_.text() + " && " + kProgram + " run missions/d.toml --no-log" +
+                              out() + " --set vehicle=my_quad");
   EXPECT_EQ(said.exit_code, 5) << said.text;
 }
 
@@ -76,7 +79,8 @@ TEST_F(OwnFolderTest, DrawsALogWithTheVehicleBesideItsScenario) {
                                                        "[[snapshot]]\nname = \"start\"\nat = \"1 s\"\n");
   ASSERT_EQ(from_elsewhere("run " + file + " --no-report" + out()).exit_code, 5);
   const std::string pictures = (folder_ / "pictures").string();
-  const Said said = from_elsewhere("snapshot " + (folder_ / "out/h/flight.mcap").string() + " --out " + pictures);
+  const Said said =
+      from_elsewhere("snapshot " + (folder_ / "out/h/flight.mcap").string() + " --out " + pictures);
   EXPECT_EQ(said.exit_code, 0) << said.text;
   EXPECT_TRUE(std::filesystem::exists(pictures + "/start.png"));
 }
@@ -88,7 +92,8 @@ TEST_F(OwnFolderTest, SaysWhenTheVehicleOfALogIsGone) {
   const Said said = from_elsewhere("video " + (folder_ / "out/i/flight.mcap").string() + out());
   EXPECT_EQ(said.exit_code, 2) << said.text;
   EXPECT_EQ(said.lines(), 1) << said.text;
-  EXPECT_NE(said.text.find("vehicle \"my_quad\" that was flown is not found"), std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("vehicle \"my_quad\" that was flown is not found"), std::string::npos)
+      << said.text;
 }
 
 }  // namespace

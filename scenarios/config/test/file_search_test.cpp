@@ -49,13 +49,15 @@ TEST_F(FileSearchTest, GoesFromTheFileUpwardsThenToTheTreeThenToTheWorkingFolder
 
 TEST_F(FileSearchTest, FindsTheTreesModelsForAFileAnywhere) {
   const std::vector<fs::path> folders = search_folders(root_ / "mine/a.toml");
-  EXPECT_EQ(find_named("models/x650", folders, "vehicle.toml"), fs::path(IRONBIRD_SOURCE_DIR) / "models/x650");
+  EXPECT_EQ(find_named("models/x650", folders, "vehicle.toml"),
+            fs::path(IRONBIRD_SOURCE_DIR) / "models/x650");
 }
 
 TEST_F(FileSearchTest, PrefersWhatLiesBesideTheFile) {
   const fs::path own = file("mine/models/x650/vehicle.toml").parent_path();
   EXPECT_EQ(find_named("models/x650", search_folders(root_ / "mine/a.toml"), "vehicle.toml"), own);
-  EXPECT_EQ(find_named("../models/x650", search_folders(root_ / "mine/missions/a.toml"), "vehicle.toml"), own);
+  EXPECT_EQ(find_named("../models/x650", search_folders(root_ / "mine/missions/a.toml"), "vehicle.toml"),
+            own);
 }
 
 TEST_F(FileSearchTest, PassesByAFolderWithoutTheFileThatMakesItOne) {
