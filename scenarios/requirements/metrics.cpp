@@ -173,8 +173,8 @@ std::vector<Metric> RunMetrics::results() const {
   append("max_tilt_deg", max_tilt_ * kDegrees, "deg",
          "greatest angle of the body's down axis to the vertical");
   append("max_speed_mps", max_speed_, "m/s", "greatest speed over ground");
-  append("flight_s", seconds_of(airborne_), "s", "time airborne");
-  append("simulated_s", seconds_of(last_), "s", "length of the run");
+  append(kFlightTime, seconds_of(airborne_), "s", "time airborne");
+  append(kSimulatedTime, seconds_of(last_), "s", "length of the run");
   append("real_time_factor", wall_seconds_ > 0.0 ? seconds_of(last_) / wall_seconds_ : kNone, "1",
          "simulated time per wall-clock time");
   return out;

@@ -28,11 +28,11 @@ class Window {
 
   bool contains(double time, const Timeline& timeline);
 
-  /// When it opened, s; nothing if it did not.
-  const std::optional<double>& opened() const { return from_; }
+  /// Why no moment of a run that ended at `end`, s, lay in it.
+  std::string why_empty(double end) const;
 
-  /// The event that it waits for to open.
-  const std::string& opening_event() const { return after_.event; }
+  /// Why it was still open when the run ended at `end`, s, although it has an end; empty when it was not.
+  std::string why_open(double end) const;
 
  private:
   Moment after_;
