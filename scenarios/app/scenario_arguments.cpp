@@ -2,10 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <limits>
 #include <numeric>
 #include <string_view>
 
+#include "scenarios/bench/scenario.hpp"
 #include "scenarios/config/config_error.hpp"
 
 namespace ironbird::scenarios {
@@ -13,8 +13,6 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr std::uint64_t kMostSeeds = 10'000;
-/// What a whole number in a scenario file can hold.
-constexpr std::uint64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
 
 std::uint64_t parse_seed(std::string_view number, const std::string& text) {
   std::uint64_t seed = 0;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
 
 namespace ironbird::scenarios {
 
@@ -116,10 +117,7 @@ Verdict verdict_from_json(const std::string& text) {
 }
 
 void write_verdict(const Verdict& verdict, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << to_json(verdict);
-  stream.close();
-  if (!stream) throw UserError(file.string() + ": cannot be written");
+  write_file(file, to_json(verdict));
 }
 
 Verdict read_verdict(const std::filesystem::path& file) {

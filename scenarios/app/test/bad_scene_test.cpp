@@ -183,6 +183,7 @@ TEST(CheckVerbTest, TakesSettingsAndSeedsAsRunDoes) {
   EXPECT_EQ(setting.exit_code, 2);
   EXPECT_NE(setting.text.find("--set plant.engine=oed: plant.engine"), std::string::npos) << setting.text;
   EXPECT_EQ(run_shell(kProgram + " check " + file + " --seed seven").exit_code, 2);
+  EXPECT_EQ(run_shell(kProgram + " check " + file + " --seed 9223372036854775807").exit_code, 0);
 }
 
 }  // namespace
