@@ -181,7 +181,8 @@ class Director {
     std::string line;
     if (!options_.from_estimate && estimate_topic_ != nullptr && !estimate_topic_->time().empty()) {
       frame.estimate = PoseTrack(*estimate_topic_).at(time);
-      line = formatted("estimate off %.2f m", (frame.estimate->p_NB_N - frame.truth.pose.p_NB_N).norm(), 0.0);
+      line = formatted("estimate (ghost) off %.2f m",
+                       (frame.estimate->p_NB_N - frame.truth.pose.p_NB_N).norm(), 0.0);
     }
     if (flying) {
       line += formatted(line.empty() ? "tracking off %.2f m" : "   tracking off %.2f m", off, 0.0);
