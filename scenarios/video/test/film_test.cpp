@@ -168,6 +168,11 @@ TEST_F(FilmTest, IsMadeFromALog) {
       const autopilot::Time now = std::chrono::milliseconds(10 * i);
       if (i == 50) recorder.write_once("/bench/event", RunEvent{0.5, "request", "go_on"}, now);
       if (i == 60) recorder.write_once("/bench/event", RunEvent{0.6, "snapshot", "picture here"}, now);
+      if (i == 190) {  // what comes last, however long, is not what the flight was about
+        signals.route.waypoints.resize(3);
+        signals.route.waypoints[0].p_N = Vector3(7, 8, -9);
+        recorder.write_once("/autopilot/route", signals.route, now);
+      }
       truth.p_NB_N = Vector3(0.02 * i, 0, -2);
       truth.rotor_speed[0] = 300.0;
       signals.estimate.p_NB_N = truth.p_NB_N + Vector3(0, 0.25, 0);
