@@ -91,6 +91,7 @@ class RunMetrics {
   void sample(Time now);
   void sample_path();
   void sample_estimate();
+  void append_estimate(std::vector<Metric>& out) const;
 
   Sources sources_;
   Time period_;

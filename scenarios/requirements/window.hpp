@@ -9,8 +9,14 @@ namespace ironbird::scenarios {
 
 /// A time of the run, or a time after an event.
 struct Moment {
-  double offset = 0.0;  ///< s
-  std::string event;    ///< empty: after the start of the run
+  double offset = 0.0;
+  std::string event;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("offset", self.offset, "s", "after the event");
+    visit("event", self.event, "", "empty: the start of the run");
+  }
 
   /// Reads `10 s`, `offboard` or `gnss_dropout + 5 s`. @throws std::invalid_argument naming `what`
   static Moment read(const std::string& text, const std::string& what);
