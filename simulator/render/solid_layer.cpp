@@ -13,36 +13,13 @@
 #include "simulator/frames/ned_nwu.hpp"
 #include "simulator/render/offscreen_context.hpp"
 #include "simulator/render/plain_words.hpp"
+#include "simulator/render/root_scene.hpp"
 
 namespace ironbird::simulator {
 namespace {
 
 constexpr const char* kRootName = "ironbird_scene.xml";
 constexpr int kMaxGeoms = 4000;
-
-/// With its last slash.
-std::string folder_of(const std::string& file) {
-  return file.substr(0, file.find_last_of('/') + 1);
-}
-
-/// `file` as seen from a folder, both absolute and without symbolic links.
-std::string seen_from(const std::string& folder, const std::string& file) {
-  std::string up;
-  for (long i = std::count(folder.begin(), folder.end(), '/'); i > 1; --i) up += "../";
-  return up + file.substr(1);
-}
-
-/// The scene as a file beside the vehicle's. There the engine looks for whatever a scene names: the vehicle's
-/// meshes and textures lie where whoever made it put them.
-/// @param field  may be empty: none
-std::string scene_text(const std::string& vehicle, const std::string& field) {
-  const std::string folder = folder_of(vehicle);
-  return "<mujoco><option gravity='0 0 0'/><visual><headlight ambient='0.36 0.38 0.42' diffuse='0.16 0.16 "
-         "0.17' "
-         "specular='0.1 0.1 0.1'/></visual><include file='" +
-         vehicle.substr(folder.size()) + "'/>" +
-         (field.empty() ? "" : "<include file='" + seen_from(folder, field) + "'/>") + "</mujoco>";
-}
 
 /// The name of a rotor's body and of its joint.
 std::string rotor_name(int rotor) {
@@ -65,7 +42,7 @@ std::string lack_of(const mjModel& model) {
 
 /// The scene, or null and what is wrong with it.
 mjModel* try_model(const std::string& vehicle, const std::string& field, std::string& wrong) {
-  const std::string text = scene_text(vehicle, field);
+  const std::string text = root_scene(vehicle, field);
   auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
   if (mj_makeEmptyFileVFS(files.get(), kRootName, static_cast<int>(text.size())) != 0) {
@@ -73,7 +50,7 @@ mjModel* try_model(const std::string& vehicle, const std::string& field, std::st
   }
   std::memcpy(files->filedata[mj_findFileVFS(files.get(), kRootName)], text.data(), text.size());
   std::array<char, 1000> error{};
-  const std::string root = folder_of(vehicle) + kRootName;
+  const std::string root = folder_of_scene(vehicle) + kRootName;
   mjModel* model = mj_loadXML(root.c_str(), files.get(), error.data(), static_cast<int>(error.size()));
   mj_deleteVFS(files.get());
   wrong = model == nullptr ? plain_words(error.data()) : lack_of(*model);

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cstddef>
 
-// Counts every request for memory in a program, ours and the engines'. It takes the place of the C library's functions:
-// for one source of a program of its own, and not with a sanitizer, which brings its own.
+// Counts every request for memory in a program, ours and the engines'. It takes the place of the C library's
+// functions: for one source of a program of its own, and not with a sanitizer, which brings its own.
 
 namespace {
 std::atomic<long> calls_of_malloc{0};
