@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "scenarios/app/command_line.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/failure.hpp"
+#include "scenarios/app/scenario_arguments.hpp"
 #include "scenarios/app/scene.hpp"
 #include "scenarios/bench/bench.hpp"
 
@@ -17,14 +19,20 @@ namespace ironbird::scenarios {
 
 namespace {
 
+struct CheckArguments {
+  ScenarioArguments scenarios;
+  bool pictures = false;
+};
+
 /// What is wrong with one file: what loading finds, then what making the objects of a run finds, then what
 /// drawing it would.
-Failure failure_in(const std::string& file, const autopilot::Modules& modules, std::size_t& count) {
+Failure failure_in(const std::string& file, const Overrides& overrides, bool pictures,
+                   const autopilot::Modules& modules, std::size_t& count) {
   try {
-    const LoadedScenario loaded = load_scenario(file, {}, modules);
+    const LoadedScenario loaded = load_scenario(file, overrides, modules);
     try {
       const Bench bench(loaded, modules, {});
-      if (has_scene(loaded)) check_scene(loaded);
+      if (pictures || has_scene(loaded)) check_scene(loaded);
     } catch (const std::invalid_argument& error) {
       throw loaded.located(error);
     }
@@ -38,11 +46,16 @@ Failure failure_in(const std::string& file, const autopilot::Modules& modules, s
   }
 }
 
-int check(const std::vector<std::string>& files, const autopilot::Modules& modules) {
+int check(const CheckArguments& arguments, const autopilot::Modules& modules) {
+  const std::vector<std::string>& files = arguments.scenarios.files;
+  Overrides overrides{split_settings(arguments.scenarios.settings), std::nullopt};
+  // What a scenario's objects are does not depend on the seed.
+  if (const auto seeds = parse_seeds(arguments.scenarios.seeds); !seeds.empty())
+    overrides.seed = seeds.front();
   std::size_t count = 0, wrong = 0;
   int code = kExitPass;
   for (const std::string& file : files) {
-    const Failure failure = failure_in(file, modules, count);
+    const Failure failure = failure_in(file, overrides, arguments.pictures, modules, count);
     std::fprintf(stderr, "%s\n", failure.text.c_str());
     code = std::max(code, failure.exit_code);
     wrong += failure.exit_code == kExitPass ? 0 : 1;
@@ -58,15 +71,18 @@ int check(const std::vector<std::string>& files, const autopilot::Modules& modul
 
 Verb check_verb() {
   return {"check", "validate scenarios without flying them", [](CLI::App& app) {
-            auto files = std::make_shared<std::vector<std::string>>();
-            app.add_option("scenarios", *files, "scenario files")->required();
+            auto arguments = std::make_shared<CheckArguments>();
+            add_scenario_arguments(app, arguments->scenarios);
+            app.add_flag("--video,--snapshots", arguments->pictures,
+                         "it is to be drawn: a vehicle without a scene is a finding");
             app.footer(
                 "Tells every finding of every file in a line of its own, `file:line:column: path = value:\n"
                 "what is wrong, what is allowed`, and ends with 2 when there is any.\n"
+                "Everything that can be known before the flight, pictures included: missing meshes too.\n"
                 "Examples:\n"
-                "  ironbird check scenarios/library/paper/three_waypoints.toml\n"
+                "  ironbird check scenarios/library/paper/three_waypoints.toml --set plant.engine=ode\n"
                 "  ironbird check scenarios/library/*/*.toml");
-            return [files](const autopilot::Modules& modules) { return check(*files, modules); };
+            return [arguments](const autopilot::Modules& modules) { return check(*arguments, modules); };
           }};
 }
 

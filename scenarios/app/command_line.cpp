@@ -46,9 +46,9 @@ std::string about_extras(const CLI::App& app) {
       for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
     }
     for (const std::string& word : command->remaining(true)) {
-      return word + ": " + command->get_name() + " does not take this" +
-             guess(word.substr(0, word.find('=')), options) + " See ironbird " + command->get_name() +
-             " --help";
+      const std::string hint = guess(word.substr(0, word.find('=')), options);
+      return word + ": " + command->get_name() + " does not take this" + hint +
+             (hint.empty() ? "; see" : " See") + " ironbird " + command->get_name() + " --help";
     }
   }
   return "there are words too many; see ironbird --help";

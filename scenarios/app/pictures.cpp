@@ -7,7 +7,6 @@
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/products.hpp"
 #include "scenarios/app/terminal.hpp"
-#include "scenarios/bench/scenario_loader.hpp"
 
 namespace ironbird::scenarios {
 
@@ -29,7 +28,7 @@ int video(const VideoArguments& arguments) {
   const Log log = Log::read(arguments.log);
   TerminalListener listener(Terminal::of_standard_error());
   const bool whole =
-      make_video(log, find_project_root(arguments.log), arguments.out, arguments.preview, listener);
+      make_video(log, scene_of(log, arguments.log), arguments.out, arguments.preview, listener);
   if (whole) listener.note(arguments.out);
   return whole ? kExitPass : kExitInterrupted;
 }
@@ -37,7 +36,7 @@ int video(const VideoArguments& arguments) {
 int snapshot(const SnapshotArguments& arguments) {
   const Log log = Log::read(arguments.log);
   TerminalListener listener(Terminal::of_standard_error());
-  for (const auto& file : make_snapshots(log, find_project_root(arguments.log), arguments.out, listener)) {
+  for (const auto& file : make_snapshots(log, scene_of(log, arguments.log), arguments.out, listener)) {
     listener.note(file.string());
   }
   return kExitPass;

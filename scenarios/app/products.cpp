@@ -38,9 +38,10 @@ double time_of_snapshot(const Log& log, const std::string& name) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-FilmOptions film_options(const PicturePlan& plan, const std::filesystem::path& project_root) {
+FilmOptions film_options(const PicturePlan& plan, const SceneFiles& scene) {
   FilmOptions options;
-  options.project_root = project_root;
+  options.vehicle_scene = scene.vehicle;
+  options.field = scene.field;
   options.cameras = cameras_of(plan);
   for (const CutConfig& cut : plan.cuts) options.cuts.push_back({cut.at, cut.camera});
   return options;
@@ -63,16 +64,15 @@ PicturePlan picture_plan(const Log& log) {
   return plan;
 }
 
-FilmScript plan_film(const Log& log, const PicturePlan& plan, const std::filesystem::path& project_root,
-                     bool preview) {
-  FilmOptions options = film_options(plan, project_root);
+FilmScript plan_film(const Log& log, const PicturePlan& plan, const SceneFiles& scene, bool preview) {
+  FilmOptions options = film_options(plan, scene);
   if (preview) options.quality = simulator::Quality::kPreview;
   return film_script(log, options);
 }
 
-bool make_video(const Log& log, const std::filesystem::path& project_root, const std::filesystem::path& file,
-                bool preview, RunListener& listener) {
-  const FilmScript script = plan_film(log, picture_plan(log), project_root, preview);
+bool make_video(const Log& log, const SceneFiles& scene, const std::filesystem::path& file, bool preview,
+                RunListener& listener) {
+  const FilmScript script = plan_film(log, picture_plan(log), scene, preview);
   return film_to_file(script, file, 0, [&](std::size_t done, std::size_t all) {
     listener.progress(
         {"film", static_cast<double>(done), static_cast<double>(all), std::to_string(done) + " pictures"});
@@ -80,7 +80,7 @@ bool make_video(const Log& log, const std::filesystem::path& project_root, const
   });
 }
 
-std::vector<std::filesystem::path> make_snapshots(const Log& log, const std::filesystem::path& project_root,
+std::vector<std::filesystem::path> make_snapshots(const Log& log, const SceneFiles& scene,
                                                   const std::filesystem::path& folder,
                                                   RunListener& listener) {
   const PicturePlan plan = picture_plan(log);
@@ -91,7 +91,7 @@ std::vector<std::filesystem::path> make_snapshots(const Log& log, const std::fil
       listener.note("snapshot " + snapshot.name + ": its moment never came");
       continue;
     }
-    FilmOptions options = film_options(plan, project_root);
+    FilmOptions options = film_options(plan, scene);
     options.quality = simulator::Quality::kStill;
     options.cuts = {{0.0, snapshot.camera}};
     const FilmScript script = film_script(log, options);
@@ -113,9 +113,9 @@ bool make_products(const RunJob& job, RunListener& listener) {
   if (!job.products.video && !job.products.snapshots) return true;
   const Log log = Log::read(log_file);
   if (job.products.snapshots)
-    make_snapshots(log, job.loaded->project_root, job.name.folder / "snapshots", listener);
+    make_snapshots(log, scene_of(*job.loaded), job.name.folder / "snapshots", listener);
   if (!job.products.video) return true;
-  return make_video(log, job.loaded->project_root, job.name.folder / "video.mp4", job.products.preview,
+  return make_video(log, scene_of(*job.loaded), job.name.folder / "video.mp4", job.products.preview,
                     listener);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenarios/app/run_job.hpp"
+#include "scenarios/app/scene.hpp"
 #include "scenarios/record/log.hpp"
 #include "scenarios/video/film_script.hpp"
 
@@ -28,15 +29,14 @@ struct PicturePlan {
 PicturePlan picture_plan(const Log& log);
 
 /// The film of a log as its scenario wants it. @param preview  quicker and plainer pictures
-FilmScript plan_film(const Log& log, const PicturePlan& plan, const std::filesystem::path& project_root,
-                     bool preview);
+FilmScript plan_film(const Log& log, const PicturePlan& plan, const SceneFiles& scene, bool preview);
 
 /// Draws the film. @return false when it was interrupted
-bool make_video(const Log& log, const std::filesystem::path& project_root, const std::filesystem::path& file,
-                bool preview, RunListener& listener);
+bool make_video(const Log& log, const SceneFiles& scene, const std::filesystem::path& file, bool preview,
+                RunListener& listener);
 
 /// Takes the pictures that the scenario names. @return the files written
-std::vector<std::filesystem::path> make_snapshots(const Log& log, const std::filesystem::path& project_root,
+std::vector<std::filesystem::path> make_snapshots(const Log& log, const SceneFiles& scene,
                                                   const std::filesystem::path& folder, RunListener& listener);
 
 /// Makes what the job asks for from the log of a finished run: report, snapshots, film.

@@ -1,13 +1,9 @@
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <memory>
-#include <numeric>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "scenarios/app/command_line.hpp"
@@ -16,6 +12,7 @@
 #include "scenarios/app/run_job.hpp"
 #include "scenarios/app/run_jobs.hpp"
 #include "scenarios/app/run_summary.hpp"
+#include "scenarios/app/scenario_arguments.hpp"
 #include "scenarios/app/terminal.hpp"
 
 namespace ironbird::scenarios {
@@ -23,9 +20,7 @@ namespace ironbird::scenarios {
 namespace {
 
 struct RunArguments {
-  std::vector<std::string> files;
-  std::vector<std::string> settings;
-  std::string seeds;
+  ScenarioArguments scenarios;
   std::string out = "out";
   std::string junit;
   int jobs = 1;
@@ -34,48 +29,6 @@ struct RunArguments {
   bool no_log = false;
   bool no_report = false;
 };
-
-std::vector<std::pair<std::string, std::string>> split_settings(const std::vector<std::string>& settings) {
-  std::vector<std::pair<std::string, std::string>> pairs;
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw ConfigError("--set " + setting + ": must be path=value, for example plant.engine=ode");
-    }
-    pairs.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
-  }
-  return pairs;
-}
-
-constexpr std::uint64_t kMostSeeds = 10'000;
-/// What a whole number in a scenario file can hold.
-constexpr std::uint64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
-
-std::uint64_t parse_seed(std::string_view number, const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto read = std::from_chars(number.data(), number.data() + number.size(), seed);
-  if (read.ec == std::errc::result_out_of_range || (read.ec == std::errc() && seed > kGreatestSeed))
-    throw ConfigError("--seed " + text + ": must be at most " + std::to_string(kGreatestSeed));
-  if (read.ec != std::errc() || read.ptr != number.data() + number.size())
-    throw ConfigError("--seed " + text + ": must be a whole number >= 0, or first:last such as 1:20");
-  return seed;
-}
-
-/// "7" or "1:20". Empty: the scenario's own seed.
-std::vector<std::uint64_t> parse_seeds(const std::string& text) {
-  if (text.empty()) return {};
-  const std::string_view all = text;
-  const std::size_t colon = all.find(':');
-  const std::uint64_t first = parse_seed(all.substr(0, colon), text);
-  const std::uint64_t last =
-      colon == std::string_view::npos ? first : parse_seed(all.substr(colon + 1), text);
-  if (last < first) throw ConfigError("--seed " + text + ": runs backwards; the lower seed comes first");
-  if (last - first >= kMostSeeds)
-    throw ConfigError("--seed " + text + ": must be at most " + std::to_string(kMostSeeds) + " seeds");
-  std::vector<std::uint64_t> seeds(last - first + 1);
-  std::iota(seeds.begin(), seeds.end(), first);
-  return seeds;
-}
 
 /// What the command line asks for: runs that can be done, and scenarios that cannot be flown at all.
 struct Plan {
@@ -86,7 +39,7 @@ struct Plan {
 /// The runs of one scenario. @throws std::exception when it cannot be loaded
 std::vector<RunJob> jobs_of(const std::string& file, const std::vector<std::uint64_t>& seeds,
                             const RunArguments& arguments, const autopilot::Modules& modules) {
-  Overrides overrides{split_settings(arguments.settings), std::nullopt};
+  Overrides overrides{split_settings(arguments.scenarios.settings), std::nullopt};
   std::vector<RunJob> jobs;
   const std::size_t count = std::max<std::size_t>(1, seeds.size());
   for (std::size_t i = 0; i < count; ++i) {
@@ -104,10 +57,11 @@ std::vector<RunJob> jobs_of(const std::string& file, const std::vector<std::uint
 
 /// A scenario that cannot be loaded does not keep the others from flying.
 Plan make_plan(const RunArguments& arguments, const autopilot::Modules& modules) {
-  const std::vector<std::uint64_t> seeds = parse_seeds(arguments.seeds);
-  split_settings(arguments.settings);  // what is wrong with these is wrong once, not with every scenario
+  const std::vector<std::uint64_t> seeds = parse_seeds(arguments.scenarios.seeds);
+  split_settings(
+      arguments.scenarios.settings);  // what is wrong with these is wrong once, not with every scenario
   Plan plan;
-  for (const std::string& file : arguments.files) {
+  for (const std::string& file : arguments.scenarios.files) {
     try {
       for (RunJob& job : jobs_of(file, seeds, arguments, modules)) plan.jobs.push_back(std::move(job));
     } catch (const std::exception& error) {
@@ -173,12 +127,7 @@ int run(RunArguments arguments, const autopilot::Modules& modules) {
 Verb run_verb() {
   return {"run", "fly scenarios and judge them", [](CLI::App& app) {
             auto arguments = std::make_shared<RunArguments>();
-            app.add_option("scenarios", arguments->files, "scenario files")->required();
-            app.add_option("--set", arguments->settings, "changes the scenario; may be repeated")
-                ->allow_extra_args(false)
-                ->take_all()
-                ->type_name("PATH=VALUE");
-            app.add_option("--seed", arguments->seeds, "seed of the run, or first:last for several runs");
+            add_scenario_arguments(app, arguments->scenarios);
             app.add_option("--out", arguments->out, "folder for the results")->capture_default_str();
             app.add_option("--jobs", arguments->jobs, "runs at the same time, each in a process of its own")
                 ->check(CLI::Range(1, 256))

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
 #include "scenarios/app/exit_code.hpp"
-#include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
 #include "scenarios/report/junit.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
 
@@ -137,11 +136,7 @@ void write_junit_file(const std::vector<RunResult>& results, const std::filesyst
   for (const RunResult& result : results) {
     runs.push_back({result.name.text(), result.verdict, on_one_line(result.error)});
   }
-  errno = 0;
-  std::ofstream stream(file, std::ios::binary);
-  stream << junit_xml(runs);
-  stream.close();
-  if (!stream) throw UserError(file.string() + ": cannot be written: " + std::strerror(errno));
+  write_file(file, junit_xml(runs));
 }
 
 }  // namespace ironbird::scenarios

@@ -62,7 +62,8 @@ Bench::Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, Be
   fcu_ = std::make_unique<hil_bridge::VirtualFcu>(scenario_.fcu, *world_);
   wire_autopilot(modules);
   lockstep_ = std::make_unique<hil_bridge::Lockstep>(*fcu_, *autopilot_, scenario_.fcu.tick);
-  add_signals(signals_, world_->truth(), autopilot_->signals(), lockstep_->telemetry());
+  add_signals(signals_, world_->truth(), autopilot_->signals(), lockstep_->telemetry(),
+              scenario_.vehicle.rotors.size());
   judge_ = std::make_unique<Judge>(scenario_.checks, signals_,
                                    RunMetrics::Sources{&world_->truth(), &autopilot_->signals()},
                                    scenario_.fcu.tick);

@@ -27,8 +27,14 @@ namespace ironbird::scenarios {
 
 /// How far a run has come.
 struct Progress {
-  double simulated = 0.0;  ///< s
-  double duration = 0.0;   ///< s, at the most
+  double simulated = 0.0;
+  double duration = 0.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("simulated", self.simulated, "s", "flown so far");
+    visit("duration", self.duration, "s", "of the run at the most");
+  }
 };
 
 /// What a run does beside flying.

@@ -6,6 +6,8 @@
 #include "scenarios/bench/event_names.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/requirements/check.hpp"
+#include "scenarios/requirements/number_text.hpp"
+#include "scenarios/requirements/quantity_text.hpp"
 #include "scenarios/requirements/window.hpp"
 
 namespace ironbird::scenarios {
@@ -18,22 +20,25 @@ struct Still {
   autopilot::Signals autopilot;
   hil_bridge::Telemetry fcu;
   SignalTable table;
-  Still() { add_signals(table, truth, autopilot, fcu); }
+  explicit Still(std::size_t rotors) { add_signals(table, truth, autopilot, fcu, rotors); }
 };
 
 class CheckRules {
  public:
   explicit CheckRules(const LoadedScenario& loaded)
-      : loaded_(loaded), names_(loaded.scenario), still_(std::make_unique<Still>()) {}
+      : loaded_(loaded),
+        names_(loaded.scenario),
+        still_(std::make_unique<Still>(loaded.scenario.vehicle.rotors.size())) {}
 
   std::vector<std::string> findings() {
     for (std::size_t i = 0; i < loaded_.scenario.checks.size(); ++i) {
       const std::string path = "check[" + std::to_string(i) + "]";
       const CheckConfig& check = loaded_.scenario.checks[i];
       try {
-        const Check possible(
-            check, {&still_->table, &still_->autopilot.route, to_seconds(loaded_.scenario.fcu.tick)});
+        const Check possible(check,
+                             {&still_->table, &still_->autopilot, to_seconds(loaded_.scenario.fcu.tick)});
         check_events(path, check);
+        check_times(path, check);
       } catch (const std::invalid_argument& error) {
         findings_.push_back(complaint_at(path, error.what()));
       }
@@ -48,6 +53,26 @@ class CheckRules {
     if (!check.order_of_events) return;
     for (std::size_t i = 0; i < check.order_of_events->size(); ++i)
       check_event(path + ".order_of_events[" + std::to_string(i) + "]", (*check.order_of_events)[i]);
+  }
+
+  /// Times that lie beyond the end of every run of the scenario.
+  void check_times(const std::string& path, const CheckConfig& check) {
+    check_moment(path + ".after", check.after);
+    check_moment(path + ".until", check.until);
+    if (check.settles) check_time(path + ".settles.time", check.settles->time);
+    check_time(path + ".tolerated_for", check.tolerated_for);
+  }
+
+  void check_moment(const std::string& path, const std::string& text) {
+    if (Moment::read(text, path).event.empty()) check_time(path, text);
+  }
+
+  void check_time(const std::string& path, const std::string& text) {
+    const double duration = loaded_.scenario.duration;
+    if (text.empty() || read_quantity(text, "s", path) <= duration) return;
+    findings_.push_back(
+        path + " = \"" + text +
+        "\": lies beyond the end of the run, must be at most duration = " + with_unit(duration, "s"));
   }
 
   void check_event(const std::string& path, const std::string& event) {
@@ -65,10 +90,14 @@ class CheckRules {
 }  // namespace
 
 void add_signals(SignalTable& table, const simulator::Truth& truth, const autopilot::Signals& autopilot,
-                 const hil_bridge::Telemetry& fcu) {
+                 const hil_bridge::Telemetry& fcu, std::size_t rotors) {
   table.add("truth", truth);
   table.add("autopilot", autopilot);
   table.add("fcu", fcu);
+  const std::string has = "the vehicle has " + std::to_string(rotors) + " rotors, from [0] to [" +
+                          std::to_string(rotors - 1) + "]";
+  table.shorten("truth.rotor_speed", rotors, has);
+  table.shorten("fcu.output_raw.values", rotors, "it drives no rotor: " + has);
 }
 
 std::vector<std::string> check_findings(const LoadedScenario& loaded) {

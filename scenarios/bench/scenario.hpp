@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -254,6 +255,9 @@ struct RecordConfig {
   }
 };
 
+/// What a whole number in a scenario file can hold.
+inline constexpr std::uint64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
+
 /// Everything that a scenario file says, the vehicle's own files included.
 struct Scenario {
   std::string title;
@@ -287,7 +291,7 @@ struct Scenario {
     visit("vehicle", self.vehicle_folder, "",
           "folder with vehicle.toml, sensors.toml, fcu.toml, autopilot.toml");
     visit("field", self.field, "", "picture of the place");
-    visit("seed", self.seed, "1", "of every random stream", 0.0, 9.2233720368547e18);
+    visit("seed", self.seed, "1", "of every random stream", 0.0);
     visit("duration", self.duration, "s", "when the run ends at the latest", 0.1, 86400.0);
     visit("end_after", self.end_after, "", "the event that ends the run earlier");
     visit("end_delay", self.end_delay, "s", "how long after it", 0.0, 86400.0);

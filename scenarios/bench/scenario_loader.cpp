@@ -6,8 +6,10 @@
 
 #include "scenarios/bench/autopilot_loader.hpp"
 #include "scenarios/bench/fcu_loader.hpp"
+#include "scenarios/bench/model_files.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/config/digest.hpp"
+#include "scenarios/config/file_search.hpp"
 #include "scenarios/config/include.hpp"
 #include "scenarios/config/toml_reader.hpp"
 
@@ -15,29 +17,37 @@ namespace ironbird::scenarios {
 
 namespace {
 
-/// The first one makes a folder a vehicle.
-constexpr const char* kVehicleFiles[] = {"vehicle.toml", "sensors.toml", "fcu.toml", "autopilot.toml"};
-
-/// The path as a reader would write it: from the working folder when it lies below it.
-std::filesystem::path readable(const std::filesystem::path& path) {
-  const std::filesystem::path relative = path.lexically_relative(std::filesystem::current_path());
-  return relative.empty() || *relative.begin() == ".." ? path : relative;
-}
+constexpr const char* kVehicleFiles[] = {kVehicleFile, "sensors.toml", "fcu.toml", "autopilot.toml"};
 
 bool is_there(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::exists(path, ignored);
 }
 
+using Folders = std::vector<std::filesystem::path>;
+
+/// The folders in which a name is looked for that the configuration gives at this place: an option's word is
+/// first taken from the working folder, as a shell does.
+Folders folders_for(const std::filesystem::path& scenario, const toml::node* node) {
+  const auto* source = node == nullptr ? nullptr : node->source().path.get();
+  const bool by_option = source != nullptr && source->starts_with("--set ");
+  Folders folders =
+      search_folders(source == nullptr || by_option ? scenario : std::filesystem::path(*source));
+  if (by_option) folders.insert(folders.begin(), std::filesystem::current_path());
+  return folders;
+}
+
 /// The vehicle's folder as the scenario or the command line names it.
 struct VehicleFolder {
   std::string name;
   std::string place;  ///< that says so; empty for the default
+  Folders folders;    ///< to look in
 };
 
-VehicleFolder vehicle_folder(const toml::table& scenario, const Overrides& overrides) {
-  VehicleFolder folder{Scenario{}.vehicle_folder, ""};
+VehicleFolder vehicle_folder(const std::filesystem::path& file, const toml::table& scenario,
+                             const Overrides& overrides) {
   const toml::node* node = scenario.get("vehicle");
+  VehicleFolder folder{Scenario{}.vehicle_folder, "", folders_for(file, node)};
   if (node != nullptr && !node->is_table()) {
     folder.place = place_of(*node);
     if (!node->is_string()) {
@@ -49,42 +59,31 @@ VehicleFolder vehicle_folder(const toml::table& scenario, const Overrides& overr
     folder.name = node->as_string()->get();
   }
   for (const auto& [path, text] : overrides.settings) {
-    if (path == "vehicle") folder = {text, "--set vehicle=" + text};
+    if (path != "vehicle") continue;
+    folder = {text, "--set vehicle=" + text, search_folders(file)};
+    folder.folders.insert(folder.folders.begin(), std::filesystem::current_path());
   }
   return folder;
 }
 
-/// The folders that hold a vehicle, as a scenario names them.
-std::string vehicles_in(const std::filesystem::path& root) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (std::filesystem::directory_iterator at(root / "models", error), end; !error && at != end;
-       at.increment(error)) {
-    if (is_there(at->path() / kVehicleFiles[0])) names.push_back("models/" + at->path().filename().string());
-  }
-  std::sort(names.begin(), names.end());  // a folder has no order of its own
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 /// The vehicle's files, merged. All are needed: flying with other sensors than meant would look like a
 /// success.
-toml::table load_vehicle(const std::filesystem::path& root, const VehicleFolder& folder) {
-  const std::filesystem::path place = root / folder.name;
-  if (!is_there(place / kVehicleFiles[0])) {
-    throw ConfigError(folder.place + (folder.place.empty() ? "" : ": ") + "vehicle = \"" + folder.name +
-                      "\": there is no " + readable(place / kVehicleFiles[0]).string() +
-                      "; a vehicle is a folder with such a file; there are: " + vehicles_in(root));
+toml::table load_vehicle(const VehicleFolder& folder, std::filesystem::path& place) {
+  const std::string what =
+      folder.place + (folder.place.empty() ? "" : ": ") + "vehicle = \"" + folder.name + "\": ";
+  place = find_vehicle(folder.name, folder.folders);
+  if (place.empty()) {
+    throw ConfigError(what + "there is no folder of this name with a " + kVehicleFile + " in " +
+                      folder.folders.front().string() + ", in a folder above it or in Ironbird's tree; " +
+                      vehicles_in(folder.folders));
   }
   toml::table merged;
   for (const char* name : kVehicleFiles) {
     if (!is_there(place / name)) {
-      throw ConfigError(folder.place + (folder.place.empty() ? "" : ": ") + "vehicle = \"" + folder.name +
-                        "\": there is no " + readable(place / name).string() +
+      throw ConfigError(what + "there is no " + readable(place / name).string() +
                         "; an empty file takes the defaults");
     }
-    merge_toml(merged, load_toml(readable(place / name), root));
+    merge_toml(merged, load_toml(readable(place / name)));
   }
   return merged;
 }
@@ -159,27 +158,14 @@ std::string LoadedScenario::located(const std::string& finding) const {
   return readable(file).string() + ":1:1: " + finding;  // about something that is nowhere
 }
 
-std::filesystem::path find_project_root(const std::filesystem::path& file) {
-  std::error_code ignored;
-  for (const std::filesystem::path& start :
-       {std::filesystem::absolute(file).parent_path(), std::filesystem::current_path()}) {
-    for (std::filesystem::path folder = start;; folder = folder.parent_path()) {
-      if (std::filesystem::is_directory(folder / "models", ignored)) return folder;
-      if (folder == folder.root_path()) break;
-    }
-  }
-  return std::filesystem::current_path();
-}
-
 LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides& overrides,
                              const autopilot::Modules& modules) {
   LoadedScenario loaded;
   loaded.file = file;
   loaded.name = file.stem().string();
-  loaded.project_root = find_project_root(file);
-  toml::table scenario = load_toml(file, loaded.project_root);
-  const VehicleFolder folder = vehicle_folder(scenario, overrides);
-  toml::table root = load_vehicle(loaded.project_root, folder);
+  toml::table scenario = load_toml(file);
+  const VehicleFolder folder = vehicle_folder(file, scenario, overrides);
+  toml::table root = load_vehicle(folder, loaded.vehicle_path);
   // `vehicle` may be the folder's name, or a table of values that win over those of the default folder.
   if (!scenario["vehicle"].is_table()) scenario.erase("vehicle");
   merge_toml(root, std::move(scenario));
@@ -191,7 +177,9 @@ LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides&
   loaded.effective_config = effective.str();
   loaded.digest = digest(loaded.effective_config);
   loaded.scenario.vehicle_folder = folder.name;
+  loaded.field_folders = folders_for(file, root.get("field"));
   std::vector<std::string> findings = read_scenario(root, loaded.scenario);
+  loaded.field_path = find_field(loaded.scenario.field, loaded.field_folders);
   // A rule would only repeat what is wrong with a value that could not be read.
   if (findings.empty()) findings = rule_findings(loaded);
   const std::vector<std::string> more = load_autopilot(root, modules, loaded);

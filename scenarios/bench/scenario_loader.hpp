@@ -32,8 +32,10 @@ struct ModuleSettings {
 /// A scenario with everything that it refers to, read and checked.
 struct LoadedScenario {
   std::filesystem::path file;
-  std::filesystem::path project_root;  ///< what "models/…" is relative to
-  std::string name;                    ///< of the file, without its ending
+  std::filesystem::path vehicle_path;                ///< the vehicle's folder
+  std::filesystem::path field_path;                  ///< the field's file; empty when it is not found
+  std::vector<std::filesystem::path> field_folders;  ///< in which it was looked for
+  std::string name;                                  ///< of the file, without its ending
   Scenario scenario;
   autopilot::AutopilotConfig autopilot;
   std::vector<ModuleSettings> modules;
@@ -56,9 +58,6 @@ struct LoadedScenario {
   /// does.
   std::string own_place(const std::string& path, const std::string& place) const;
 };
-
-/// The folder above `file`, or else above the working folder, in which models/ lies; else the working folder.
-std::filesystem::path find_project_root(const std::filesystem::path& file);
 
 /// Reads a scenario, its includes and its vehicle's files, and checks everything that can be checked without
 /// making the objects of a run.

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cmath>
 #include <string>
-#include <system_error>
 #include <type_traits>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "scenarios/bench/check_rules.hpp"
 #include "scenarios/bench/event_names.hpp"
 #include "scenarios/bench/event_rules.hpp"
+#include "scenarios/bench/model_files.hpp"
 #include "scenarios/config/nearest_name.hpp"
 
 namespace ironbird::scenarios {
@@ -67,11 +67,11 @@ class Rules {
   }
 
   void check_field() {
-    const std::filesystem::path field = loaded_.project_root / loaded_.scenario.field;
-    std::error_code ignored;
-    if (!loaded_.scenario.field.empty() && !std::filesystem::is_regular_file(field, ignored)) {
-      report("field = \"" + loaded_.scenario.field +
-             "\": there is no such file; fields are XML files in models/fields");
+    // The default matters only to pictures, and is missed when they are to be made.
+    if (loaded_.gives("field") && !loaded_.scenario.field.empty() && loaded_.field_path.empty()) {
+      report("field = \"" + loaded_.scenario.field + "\": there is no such file in " +
+             loaded_.field_folders.front().string() + ", in a folder above it or in Ironbird's tree; " +
+             fields_in(loaded_.field_folders));
     }
   }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenarios/config/config_error.hpp"
+#include "scenarios/config/file_search.hpp"
 #include "scenarios/config/text_file.hpp"
 
 namespace ironbird::scenarios {
@@ -23,8 +24,6 @@ void put(toml::table& table, std::string_view key, toml::node&& value) {
 
 class Loader {
  public:
-  explicit Loader(Path project_root) : project_root_(std::move(project_root)) {}
-
   toml::table load(const Path& file, const std::string& asked_by) {
     const std::string text = read_config_text(file, asked_by);
     std::error_code ignored;
@@ -45,7 +44,7 @@ class Loader {
 
  private:
   /// The files that `own` includes, each with the place that says so. Removes the key.
-  std::vector<std::pair<Path, std::string>> take_includes(toml::table& own, const Path& file) const {
+  static std::vector<std::pair<Path, std::string>> take_includes(toml::table& own, const Path& file) {
     std::vector<std::pair<Path, std::string>> result;
     const toml::node* include = own.get("include");
     if (include == nullptr) return result;
@@ -62,15 +61,15 @@ class Loader {
     return result;
   }
 
-  Path find(const std::string& name, const Path& from) const {
+  /// Beside the including file when there is none, so that the message names the place that was meant.
+  static Path find(const std::string& name, const Path& from) {
     const Path beside = (from.parent_path() / name).lexically_normal();
     std::error_code ignored;
     if (std::filesystem::exists(beside, ignored)) return beside;
-    const Path below_root = (project_root_ / name).lexically_normal();
-    return std::filesystem::exists(below_root, ignored) ? below_root : beside;
+    const Path found = find_named(name, search_folders(from));
+    return found.empty() ? beside : readable(found);
   }
 
-  Path project_root_;
   std::vector<Path> open_;
 };
 
@@ -213,8 +212,8 @@ void merge_toml(toml::table& under, toml::table&& over) {
   merge_below(under, std::move(over), "");
 }
 
-toml::table load_toml(const std::filesystem::path& file, const std::filesystem::path& project_root) {
-  return Loader(project_root).load(file, "");
+toml::table load_toml(const std::filesystem::path& file) {
+  return Loader().load(file, "");
 }
 
 void set_value(toml::table& root, std::string_view path, std::string_view text) {

@@ -8,14 +8,14 @@
 
 namespace ironbird::scenarios {
 
-/// Reads a TOML file with everything that it includes: `include = ["other.toml", ...]`, each path relative to
-/// the file, else to `project_root`.
+/// Reads a TOML file with everything that it includes: `include = ["other.toml", ...]`, each looked for in
+/// the search_folders() of the file.
 ///
 /// Included tables lie below the including file: its own values win, tables merge, arrays replace. Of several
 /// included files a later one wins. Every node keeps the file, line and column that it came from.
 /// @throws ConfigError for a file that is missing or no TOML, and for files that include each other in a
 /// circle
-toml::table load_toml(const std::filesystem::path& file, const std::filesystem::path& project_root = ".");
+toml::table load_toml(const std::filesystem::path& file);
 
 /// The same for a text; `name` stands for the file in messages.
 toml::table parse_toml(std::string_view text, std::string_view name);

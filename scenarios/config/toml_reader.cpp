@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -50,6 +52,17 @@ std::string in_degrees(const Allowed& allowed) {
   if (allowed.unit != "rad") return "";
   const auto degrees = [](double angle) { return shortest(std::round(angle * kDegrees * 1e6) / 1e6); };
   return " (" + degrees(allowed.lower) + " and " + degrees(allowed.upper) + " deg)";
+}
+
+/// What a whole number in a file can be at most: exactly, and as a bound that is a double.
+const std::string kGreatestInteger = std::to_string(std::numeric_limits<std::int64_t>::max());
+constexpr double kFileHolds = 9.2e18;
+
+/// An option's whole number that is too great for TOML arrives as a text.
+bool is_great(const toml::node& node) {
+  const auto text = node.value<std::string>();
+  return text && text->size() >= kGreatestInteger.size() &&
+         text->find_first_not_of("0123456789") == std::string::npos;
 }
 
 /// What is wrong with a number, or nothing.
@@ -175,11 +188,14 @@ std::optional<std::int64_t> TomlReader::integer(const toml::node& node, const Al
     read_number(node, number, allowed, path);
     if (findings_.size() != before) return std::nullopt;
   } else {
-    report(node, path, "must be a whole number");
+    report(node, path, "must be a whole number" + (is_great(node) ? " of at most " + kGreatestInteger : ""));
     return std::nullopt;
   }
-  std::string wrong =
-      complaint(number, {allowed.unit, std::max(least, allowed.lower), std::min(greatest, allowed.upper)});
+  const double lower = std::max(least, allowed.lower);
+  const double upper = std::min(greatest, allowed.upper);
+  std::string wrong = complaint(number, {allowed.unit, lower, upper});
+  if (!wrong.empty() && upper > kFileHolds)
+    wrong = "must be between " + shortest(lower) + " and " + kGreatestInteger;
   if (number != std::round(number)) wrong = "must be a whole number";
   if (!wrong.empty()) {
     report(node, path, wrong);

@@ -11,12 +11,13 @@
 #include <string>
 
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
 
 namespace ironbird::scenarios {
 namespace {
 
 UserError failure(const std::filesystem::path& path, const char* what, int reason) {
-  return UserError(path.string() + ": " + what + ": " + std::strerror(reason));
+  return UserError(with_remedy(path.string() + ": " + what + ": " + std::strerror(reason)));
 }
 
 }  // namespace

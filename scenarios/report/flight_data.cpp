@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "scenarios/record/held_column.hpp"
+#include "scenarios/record/logged_route.hpp"
 #include "scenarios/requirements/attitude.hpp"
 #include "scenarios/requirements/metrics.hpp"
 
@@ -22,7 +24,6 @@ constexpr const char* kTruth = "/truth/state";
 constexpr const char* kEstimate = "/autopilot/estimate";
 constexpr const char* kTrajectory = "/autopilot/trajectory";
 constexpr const char* kFlight = "/autopilot/flight";
-constexpr const char* kRoute = "/autopilot/route";
 constexpr std::array<const char*, 3> kAxes{".x", ".y", ".z"};
 
 double mix(double a, double b, double share) {
@@ -84,37 +85,16 @@ std::vector<Eigen::Quaterniond> attitudes_of(const ReportRun& run, std::string_v
   return out;
 }
 
-/// A route and when it came into force, s.
-struct PlannedRoute {
-  double since = 0.0;
+/// As the metrics take it.
+autopilot::Route as_route(const LoggedRoute& logged) {
   autopilot::Route route;
-};
-
-std::vector<autopilot::Waypoint> waypoints_at(const ReportRun& run, std::size_t message) {
-  std::vector<autopilot::Waypoint> out;
-  for (int i = 0;; ++i) {
-    const std::string stem = "waypoints[" + std::to_string(i) + "].p_N";
+  route.cyclic = logged.cyclic;
+  for (const Eigen::Vector3d& p_N : logged.waypoints_N) {
     autopilot::Waypoint waypoint;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::vector<double>& column = run.column(kRoute, stem + kAxes[static_cast<std::size_t>(axis)]);
-      if (column.size() <= message || !std::isfinite(column[message])) return out;
-      waypoint.p_N[axis] = column[message];
-    }
-    out.push_back(waypoint);
+    waypoint.p_N = p_N;
+    route.waypoints.push_back(waypoint);
   }
-}
-
-std::vector<PlannedRoute> routes_of(const ReportRun& run) {
-  std::vector<PlannedRoute> out;
-  const std::vector<double>& time = run.time(kRoute);
-  const std::vector<double>& cyclic = run.column(kRoute, "cyclic");
-  for (std::size_t k = 0; k < time.size(); ++k) {
-    autopilot::Route route;
-    route.cyclic = k < cyclic.size() && cyclic[k] == 1.0;
-    route.waypoints = waypoints_at(run, k);
-    out.push_back({time[k], std::move(route)});
-  }
-  return out;
+  return route;
 }
 
 /// Whether a moment of the log counts for the path error.
@@ -152,23 +132,6 @@ class LegUnderWay {
   HeldColumn finished_ = held(kTrajectory, "finished");
   HeldColumn landing_ = held(kTrajectory, "landing");
 };
-
-/// The route that was in force for the longest time of those that have waypoints: what the flight was about,
-/// whatever came before and after it, such as the way home.
-autopilot::Route main_route(const ReportRun& run) {
-  const std::vector<PlannedRoute> routes = routes_of(run);
-  const std::vector<double>& flown = run.time(kTrajectory);
-  const double end = flown.empty() ? 0.0 : flown.back();
-  autopilot::Route out;
-  double longest = -1.0;
-  for (std::size_t k = 0; k < routes.size(); ++k) {
-    const double until = k + 1 < routes.size() ? routes[k + 1].since : std::max(end, routes[k].since);
-    if (routes[k].route.waypoints.empty() || until - routes[k].since <= longest) continue;
-    longest = until - routes[k].since;
-    out = routes[k].route;
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -254,28 +217,32 @@ Curve broken_at_wraps(Curve curve) {
 
 std::vector<std::array<double, 3>> waypoints_of(const ReportRun& run) {
   std::vector<std::array<double, 3>> out;
-  for (const autopilot::Waypoint& waypoint : main_route(run).waypoints) {
-    out.push_back({waypoint.p_N.x(), waypoint.p_N.y(), waypoint.p_N.z()});
-  }
+  const std::vector<LoggedRoute> routes = logged_routes(run.log());
+  const std::optional<std::size_t> main = main_route(routes);
+  if (!main) return out;
+  for (const Eigen::Vector3d& p_N : routes[*main].waypoints_N) out.push_back({p_N.x(), p_N.y(), p_N.z()});
   return out;
 }
 
 bool is_cyclic(const ReportRun& run) {
-  return main_route(run).cyclic;
+  const std::vector<LoggedRoute> routes = logged_routes(run.log());
+  const std::optional<std::size_t> main = main_route(routes);
+  return main && routes[*main].cyclic;
 }
 
 Curve path_distance(const ReportRun& run, std::string_view topic) {
   Curve out;
-  const std::vector<PlannedRoute> routes = routes_of(run);
+  const std::vector<LoggedRoute> routes = logged_routes(run.log());
   const Curves p = vector_of(run, topic, "p_NB_N");
   if (routes.empty() || p[0].empty() || p[1].empty() || p[2].empty()) return out;
   LegUnderWay leg_under_way(run);
   std::size_t at = 0;
+  autopilot::Route route = as_route(routes.front());
   bool interrupted = false;
   for (std::size_t k = 0; k < p[0].time.size(); ++k) {
     const double now = p[0].time[k];
-    while (at + 1 < routes.size() && routes[at + 1].since <= now) ++at;
-    if (!leg_under_way.at(now, routes[at].route)) {
+    while (at + 1 < routes.size() && routes[at + 1].since <= now) route = as_route(routes[++at]);
+    if (!leg_under_way.at(now, route)) {
       interrupted = !out.time.empty();
       continue;
     }
@@ -284,7 +251,7 @@ Curve path_distance(const ReportRun& run, std::string_view topic) {
       out.value.push_back(std::numeric_limits<double>::quiet_NaN());
     }
     out.time.push_back(now);
-    out.value.push_back(to_polyline({p[0].value[k], p[1].value[k], p[2].value[k]}, routes[at].route).norm());
+    out.value.push_back(to_polyline({p[0].value[k], p[1].value[k], p[2].value[k]}, route).norm());
   }
   return out;
 }

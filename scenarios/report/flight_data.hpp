@@ -42,7 +42,7 @@ Curve scaled(Curve curve, double factor);
 /// Puts a gap where an angle jumps by more than half a turn, so that no line crosses the plot. Degrees.
 Curve broken_at_wraps(Curve curve);
 
-/// Of the routes in the log that have waypoints, the one that was in force longest: its points in N.
+/// The points of the log's main_route() in N.
 std::vector<std::array<double, 3>> waypoints_of(const ReportRun& run);
 
 /// True when that route is cyclic.

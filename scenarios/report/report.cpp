@@ -1,8 +1,6 @@
 #include "scenarios/report/report.hpp"
 
-#include <fstream>
-
-#include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
 #include "scenarios/report/figures.hpp"
 #include "scenarios/report/page_style.hpp"
 #include "scenarios/report/plot/svg.hpp"
@@ -65,10 +63,7 @@ std::string report_html(const std::vector<ReportRun>& runs) {
 }
 
 void write_report(const std::vector<ReportRun>& runs, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << report_html(runs);
-  stream.close();
-  if (!stream) throw UserError(file.string() + ": cannot be written");
+  write_file(file, report_html(runs));
 }
 
 }  // namespace ironbird::scenarios

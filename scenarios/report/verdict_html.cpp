@@ -27,7 +27,7 @@ std::string typeset(std::string number) {
 
 std::string margin_text(const CheckResult& check) {
   if (std::isnan(check.margin)) return "\u2013";
-  return (check.margin > 0.0 ? "+" : "") + typeset(with_unit(check.margin, check.unit));
+  return (check.margin > 0.0 ? "+" : "") + typeset(with_unit(check.margin, check.unit, check.angles));
 }
 
 std::string time_cell(double time) {

@@ -80,8 +80,10 @@ struct Reader {
     if (value < 0.0) throw std::invalid_argument(std::string(key) + " = " + text + ", must be >= 0");
     return value;
   }
-  Wording wording(const std::string& bound) const { return {bound, subject.name(), subject.unit()}; }
-  std::string in_words(double value) const { return with_unit(value, subject.unit()); }
+  Wording wording(const std::string& bound) const {
+    return {bound, subject.name(), subject.unit(), subject.angles()};
+  }
+  std::string in_words(double value) const { return with_unit(value, subject.unit(), subject.angles()); }
 
   Eigen::Vector3d target() const {
     if (config.to_point && (subject.size() != 3 || !config.to.empty())) {
@@ -126,13 +128,13 @@ std::unique_ptr<Assertion> make_tube(const Reader& read) {
   if (read.subject.size() != 3 || read.subject.unit() != "m") {
     throw std::invalid_argument("stays_within_tube is for a position of three components");
   }
-  if (read.context.route == nullptr) throw std::invalid_argument("stays_within_tube: there is no route");
+  if (read.context.autopilot == nullptr) throw std::invalid_argument("stays_within_tube: there is no route");
   const double radius = read.positive(*read.config.stays_within_tube, "stays_within_tube", "m");
   Wording wording =
       read.wording("within " + with_unit(radius, "m") + " of the path" + read.tolerated_words());
   wording.what += " distance from the path";
   return std::make_unique<StaysInTube>(read.subject, wording, read.tolerated_for(), read.context.tick, radius,
-                                       *read.context.route);
+                                       *read.context.autopilot);
 }
 
 std::unique_ptr<Assertion> make_targeted(const std::string& kind, const Reader& read) {
@@ -160,7 +162,8 @@ std::unique_ptr<Assertion> make_targeted(const std::string& kind, const Reader& 
   const double by = reaches.by.empty() ? kInfinity : read.positive(reaches.by, "reaches.by", "s");
   std::string words = "within " + read.in_words(tolerance);
   if (!reaches.by.empty()) words += " by " + with_unit(by, "s");
-  return std::make_unique<Reaches>(read.subject, read.wording(words), tolerance, by, read.target());
+  return std::make_unique<Reaches>(read.subject, read.wording(words), tolerance, by, read.target(),
+                                   !read.config.after.empty());
 }
 
 std::string nearest_metric(const std::string& wrong, const std::vector<Metric>& known) {
@@ -245,6 +248,10 @@ std::string kind_of(const CheckConfig& config) {
   }
   if (kind.empty()) throw std::invalid_argument("asserts nothing, must have one of " + all);
   return kind;
+}
+
+bool is_about_all_of_its_window(const std::string& kind) {
+  return kind != "happens" && kind != "reaches" && kind != "order_of_events";
 }
 
 std::unique_ptr<Assertion> make_assertion(const std::string& kind, const CheckConfig& config,

@@ -15,6 +15,13 @@ struct EulerAngles {
   double roll = 0.0;
   double pitch = 0.0;
   double heading = 0.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("roll", self.roll, "rad", "about Bx");
+    visit("pitch", self.pitch, "rad", "nose up");
+    visit("heading", self.heading, "rad", "from north to east");
+  }
 };
 
 inline double roll_of(const Eigen::Quaterniond& q) {

@@ -20,13 +20,20 @@ CheckResult Check::result(const RunFacts& facts) const {
   CheckResult result;
   result.name = name_;
   result.kind = kind_;
-  if (!window_.opened() && !window_.opening_event().empty()) {
+  if (!opened_) {
     result.margin = result.time = std::numeric_limits<double>::quiet_NaN();
-    result.explanation = window_.opening_event() + " never happened";
+    result.explanation = window_.why_empty(ended_);
     return result;
   }
   assertion_->judge(facts, result);
+  if (is_about_all_of_its_window(kind_)) object(result, window_.why_open(ended_));
   return result;
+}
+
+void object(CheckResult& result, const std::string& reason) {
+  if (result.outcome != Outcome::kPass || reason.empty()) return;
+  result.outcome = Outcome::kInconclusive;
+  result.explanation += "; shows nothing: " + reason;
 }
 
 std::string complaint_at(const std::string& path, const std::string& complaint) {

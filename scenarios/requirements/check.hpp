@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "autopilot/types/mission.hpp"
+#include "autopilot/signals.hpp"
 #include "scenarios/requirements/check_config.hpp"
 #include "scenarios/requirements/metrics.hpp"
+#include "scenarios/requirements/number_text.hpp"
 #include "scenarios/requirements/outcome.hpp"
 #include "scenarios/requirements/signal_table.hpp"
 #include "scenarios/requirements/timeline.hpp"
@@ -23,6 +24,7 @@ struct CheckResult {
   std::string unit;
   double time = 0.0;
   std::string explanation;
+  Angles angles = Angles::kDegrees;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -33,14 +35,15 @@ struct CheckResult {
     visit("unit", self.unit, "", "unit of the margin");
     visit("time", self.time, "s", "when the margin was least; NaN: no single time");
     visit("explanation", self.explanation, "", "one line");
+    visit("angles", self.angles, "1", "what people count the margin in, when its unit is about angles");
   }
 };
 
 /// What all checks of a run share.
 struct CheckContext {
-  const SignalTable* signals = nullptr;     ///< outlives the checks
-  const autopilot::Route* route = nullptr;  ///< for tubes; may be null
-  double tick = 0.0025;                     ///< time between two observations, s, > 0
+  const SignalTable* signals = nullptr;           ///< outlives the checks
+  const autopilot::Signals* autopilot = nullptr;  ///< for tubes; may be null
+  double tick = 0.0025;                           ///< time between two observations, s, > 0
 };
 
 /// What the judge knows at the end of a run.
@@ -48,6 +51,9 @@ struct RunFacts {
   const Timeline& timeline;
   const std::vector<Metric>& metrics;
 };
+
+/// Takes a pass back: what the check was about did not occur, so that it shows nothing.
+void object(CheckResult& result, const std::string& reason);
 
 /// The work of one kind of check: sees samples inside the window, then says what it found.
 class Assertion {
@@ -70,7 +76,10 @@ class Check {
 
   /// To be called after every tick, in order of time.
   void observe(double time, const Timeline& timeline) {
-    if (window_.contains(time, timeline)) assertion_->sample(time);
+    ended_ = time;
+    if (!window_.contains(time, timeline)) return;
+    opened_ = true;
+    assertion_->sample(time);
   }
 
   CheckResult result(const RunFacts& facts) const;
@@ -80,6 +89,8 @@ class Check {
   std::string kind_;
   Window window_;
   std::unique_ptr<Assertion> assertion_;
+  bool opened_ = false;
+  double ended_ = 0.0;  // s
 };
 
 /// What a check's constructor has to say, with the path of the check in front: `check[1].signal = …` for what

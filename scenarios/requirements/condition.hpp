@@ -19,6 +19,7 @@ class Condition {
 
   /// Unit of the margin: the signal's, or 1 for what only holds or does not.
   const std::string& unit() const { return unit_; }
+  Angles angles() const { return signal_.angles(); }
 
   bool present() const { return signal_.present(); }
 

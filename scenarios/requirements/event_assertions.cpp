@@ -29,7 +29,8 @@ void ConditionAssertion::sample(double time) {
 void ConditionAssertion::judge(const RunFacts&, CheckResult& result) const {
   result.unit = condition_.unit();
   if (broken_at_) {
-    fill(result, {-std::numeric_limits<double>::infinity(), *broken_at_}, condition_.unit());
+    fill(result, {-std::numeric_limits<double>::infinity(), *broken_at_}, condition_.unit(),
+         condition_.angles());
     result.explanation =
         "the signal of " + condition_.text() + " was not a number at " + with_unit(*broken_at_, "s");
     return;
@@ -37,7 +38,7 @@ void ConditionAssertion::judge(const RunFacts&, CheckResult& result) const {
   if (!eventually_.robustness()) return fill_unseen(result, "the signal of " + condition_.text());
   const stl::Robustness found = *eventually_.robustness();
   fill(result, {must_happen_ ? found.margin : stl::negation(found.margin), first_.value_or(found.time)},
-       condition_.unit());
+       condition_.unit(), condition_.angles());
   result.explanation =
       condition_.text() + (first_ ? " at " + with_unit(*first_, "s") : std::string(" at no time"));
 }
@@ -101,6 +102,10 @@ void MetricBound::judge(const RunFacts& facts, CheckResult& result) const {
   fill(result, {below_ ? bound_ - found->value : found->value - bound_, kNone}, found->unit);
   result.explanation = metric_ + " was " + with_unit(found->value, found->unit) + ", must be " +
                        (below_ ? "below " : "above ") + with_unit(bound_, found->unit);
+  const bool flew = std::none_of(facts.metrics.begin(), facts.metrics.end(), [](const Metric& metric) {
+    return metric.name == kFlightTime && metric.value == 0.0;
+  });
+  if (!flew && metric_ != kSimulatedTime) object(result, "the vehicle never flew");
 }
 
 }  // namespace ironbird::scenarios

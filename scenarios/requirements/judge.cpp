@@ -16,7 +16,7 @@ double seconds_of(std::chrono::nanoseconds time) {
 Judge::Judge(const std::vector<CheckConfig>& checks, const SignalTable& signals, RunMetrics::Sources sources,
              Time tick)
     : metrics_(sources), detector_(*sources.autopilot) {
-  const CheckContext context{&signals, &sources.autopilot->route, seconds_of(tick)};
+  const CheckContext context{&signals, sources.autopilot, seconds_of(tick)};
   checks_.reserve(checks.size());
   for (std::size_t i = 0; i < checks.size(); ++i) {
     try {

@@ -136,13 +136,7 @@ std::vector<Metric> RunMetrics::names_and_units() {
   return RunMetrics({nullptr, &nothing}).results();
 }
 
-std::vector<Metric> RunMetrics::results() const {
-  std::vector<Metric> out;
-  append_axes(out, "path_rms", path_, "estimate to the nearest point of the waypoints' polyline");
-  append_axes(out, "true_path_rms", true_path_, "truth to the nearest point of the waypoints' polyline");
-  append_axes(out, "tracking_rms", tracking_, "estimate against the trajectory at the same time");
-  append_axes(out, "true_tracking_rms", true_tracking_, "truth against the trajectory at the same time");
-
+void RunMetrics::append_estimate(std::vector<Metric>& out) const {
   const double north = position_[0].root(), east = position_[1].root(), down = position_[2].root();
   const double forward = velocity_[0].root(), right = velocity_[1].root(), below = velocity_[2].root();
   const double roll = angles_[0].root() * kDegrees, pitch = angles_[1].root() * kDegrees;
@@ -170,11 +164,24 @@ std::vector<Metric> RunMetrics::results() const {
   append("estimate_roll_rms_deg", roll, "deg", "roll error" + airborne);
   append("estimate_pitch_rms_deg", pitch, "deg", "pitch error" + airborne);
   append("estimate_heading_rms_deg", angles_[2].root() * kDegrees, "deg", "heading error" + airborne);
+}
+
+std::vector<Metric> RunMetrics::results() const {
+  std::vector<Metric> out;
+  append_axes(out, "path_rms", path_, "estimate to the nearest point of the waypoints' polyline");
+  append_axes(out, "true_path_rms", true_path_, "truth to the nearest point of the waypoints' polyline");
+  append_axes(out, "tracking_rms", tracking_, "estimate against the trajectory at the same time");
+  append_axes(out, "true_tracking_rms", true_tracking_, "truth against the trajectory at the same time");
+
+  append_estimate(out);
+  const auto append = [&out](const char* name, double value, const char* unit, const std::string& meaning) {
+    out.push_back({name, value, unit, meaning});
+  };
   append("max_tilt_deg", max_tilt_ * kDegrees, "deg",
          "greatest angle of the body's down axis to the vertical");
   append("max_speed_mps", max_speed_, "m/s", "greatest speed over ground");
-  append("flight_s", seconds_of(airborne_), "s", "time airborne");
-  append("simulated_s", seconds_of(last_), "s", "length of the run");
+  append(kFlightTime, seconds_of(airborne_), "s", "time airborne");
+  append(kSimulatedTime, seconds_of(last_), "s", "length of the run");
   append("real_time_factor", wall_seconds_ > 0.0 ? seconds_of(last_) / wall_seconds_ : kNone, "1",
          "simulated time per wall-clock time");
   return out;

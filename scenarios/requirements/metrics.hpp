@@ -28,6 +28,10 @@ struct Metric {
   }
 };
 
+/// The only figures that are there without a flight.
+inline constexpr const char* kFlightTime = "flight_s";
+inline constexpr const char* kSimulatedTime = "simulated_s";
+
 /// Mean square of a number seen sample by sample.
 class MeanSquare {
  public:
@@ -87,6 +91,7 @@ class RunMetrics {
   void sample(Time now);
   void sample_path();
   void sample_estimate();
+  void append_estimate(std::vector<Metric>& out) const;
 
   Sources sources_;
   Time period_;

@@ -16,10 +16,11 @@ std::string short_number(double value) {
   return text.data();
 }
 
-std::string with_unit(double value, std::string_view unit) {
+std::string with_unit(double value, std::string_view unit, Angles angles) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
-  if (unit == "rad") return short_number(value * kDegrees) + " deg";
-  if (unit == "rad/s") return short_number(value * kDegrees) + " deg/s";
+  const bool in_degrees = angles == Angles::kDegrees;
+  if (unit == "rad" && in_degrees) return short_number(value * kDegrees) + " deg";
+  if (unit == "rad/s" && in_degrees) return short_number(value * kDegrees) + " deg/s";
   if (unit.empty() || unit == "1" || unit == "SI") return short_number(value);
   return short_number(value) + " " + std::string(unit);
 }

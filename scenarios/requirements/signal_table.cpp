@@ -64,6 +64,14 @@ void SignalTable::add_attitude_angles() {
   attitudes_.clear();
 }
 
+void SignalTable::shorten(const std::string& path, std::size_t count, const std::string& reason) {
+  for (std::size_t i = count;; ++i) {
+    const std::string element = path + "[" + std::to_string(i) + "]";
+    if (by_path_.erase(element) == 0) return;
+    void_.emplace(element, reason);
+  }
+}
+
 const SignalLeaf* SignalTable::leaf(std::string_view path) const {
   const auto found = by_path_.find(path);
   return found == by_path_.end() ? nullptr : found->second;
@@ -85,8 +93,11 @@ Signal SignalTable::find(std::string_view path) const {
   }
   if (signal.size_ > 0) return signal;
 
+  if (const auto found = void_.find(path); found != void_.end())
+    throw std::invalid_argument("no signal " + std::string(path) + "; " + found->second);
   std::vector<std::pair<std::size_t, std::string>> nearest;
   for (const SignalLeaf& candidate : leaves_) {
+    if (void_.contains(candidate.path)) continue;
     nearest.emplace_back(edit_distance(path, candidate.path), candidate.path);
     const std::string whole = candidate.path.substr(0, candidate.path.size() - 2);
     const bool starts_vector = candidate.path.ends_with(".x") && leaf(whole + ".w") == nullptr;

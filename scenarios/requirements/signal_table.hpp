@@ -17,6 +17,7 @@
 #include <Eigen/Geometry>
 
 #include "scenarios/record/type_name.hpp"
+#include "scenarios/requirements/number_text.hpp"
 
 namespace ironbird::scenarios {
 
@@ -34,8 +35,9 @@ struct SignalLeaf {
   const void* address = nullptr;
   double (*read)(const void*) = nullptr;
   std::vector<Guard> guards;
-  std::vector<std::string> names;  ///< of the values 0, 1, 2, … when the leaf is an enumeration
-  std::vector<double> numbers;     ///< the number that each name stands for
+  std::vector<std::string> names;    ///< of the values 0, 1, 2, … when the leaf is an enumeration
+  std::vector<double> numbers;       ///< the number that each name stands for
+  Angles angles = Angles::kDegrees;  ///< what people count it in, when it is about an angle
 
   bool present() const {
     for (const Guard& guard : guards) {
@@ -55,6 +57,8 @@ class Signal {
 
   const std::string& path() const { return path_; }
   const std::string& unit() const { return leaf_[0]->unit; }
+
+  Angles angles() const { return leaf_[0]->angles; }
 
   /// 1, or 2 or 3 for a vector addressed as a whole.
   int size() const { return size_; }
@@ -96,6 +100,10 @@ class SignalTable {
   template <class Struct>
   void add(const std::string& prefix, const Struct& object);
 
+  /// Elements of the array `path` from `count` on are no signals: they lie in the struct and mean nothing.
+  /// @param reason  for the message when one of them is asked for
+  void shorten(const std::string& path, std::size_t count, const std::string& reason);
+
   /// @throws std::invalid_argument naming the nearest paths when there is no such signal
   Signal find(std::string_view path) const;
 
@@ -111,6 +119,7 @@ class SignalTable {
 
   std::deque<SignalLeaf> leaves_;
   std::map<std::string, const SignalLeaf*, std::less<>> by_path_;
+  std::map<std::string, std::string, std::less<>> void_;  ///< paths that shorten() took, each with its reason
   std::vector<SignalLeaf> attitudes_;
 };
 
@@ -135,6 +144,11 @@ struct SignalTable::Walk {
     return live + (reinterpret_cast<const std::byte*>(&member) - sample);
   }
 
+  /// Rotors alone are spoken of in rad/s.
+  static Angles angles_of(const std::string& leaf_path) {
+    return leaf_path.find(".rotor_speed") == std::string::npos ? Angles::kDegrees : Angles::kRadians;
+  }
+
   template <class Value>
   static double read_number(const void* address) {
     return static_cast<double>(*static_cast<const Value*>(address));
@@ -155,7 +169,8 @@ struct SignalTable::Walk {
   void leaf(const std::string& leaf_path, const void* address, double (*read)(const void*),
             const std::string& unit, const std::string& meaning, std::vector<std::string> names = {},
             std::vector<double> numbers = {}) const {
-    table.add_leaf({leaf_path, unit, meaning, address, read, guards, std::move(names), std::move(numbers)});
+    table.add_leaf({leaf_path, unit, meaning, address, read, guards, std::move(names), std::move(numbers),
+                    angles_of(leaf_path)});
   }
 
   template <class Value>

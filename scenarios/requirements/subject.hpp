@@ -20,6 +20,7 @@ class Subject {
   /// Its name in messages.
   std::string name() const;
   const std::string& unit() const { return first_.unit(); }
+  Angles angles() const { return first_.angles(); }
   int size() const { return first_.size(); }
   bool is_angle() const { return first_.is_angle(); }
   bool present() const { return first_.present() && (!second_ || second_->present()); }

@@ -18,11 +18,12 @@ std::string at(double time) {
 
 }  // namespace
 
-void fill(CheckResult& result, const stl::Robustness& found, const std::string& unit) {
+void fill(CheckResult& result, const stl::Robustness& found, const std::string& unit, Angles angles) {
   const bool is_only_a_sign = std::abs(found.margin) <= std::numeric_limits<double>::min();
   result.outcome = found.margin >= 0.0 ? Outcome::kPass : Outcome::kFail;
   result.margin = is_only_a_sign ? 0.0 : found.margin;
   result.unit = unit;
+  result.angles = angles;
   result.time = found.time;
 }
 
@@ -45,8 +46,11 @@ void ValueAssertion::sample(double time) {
 
 void ValueAssertion::judge(const RunFacts&, CheckResult& result) const {
   if (!seen_) return fill_unseen(result, wording_.what);
-  if (!broken_at_) return conclude(result);
-  fill(result, {-std::numeric_limits<double>::infinity(), *broken_at_}, wording_.unit);
+  if (!broken_at_) {
+    conclude(result);
+    return object(result, objection());
+  }
+  fill(result, {-std::numeric_limits<double>::infinity(), *broken_at_}, wording_);
   result.explanation = wording_.what + " was not a number" + at(*broken_at_);
 }
 
@@ -58,10 +62,10 @@ void RmsBelow::take(double time) {
 
 void RmsBelow::conclude(CheckResult& result) const {
   const stl::Robustness largest = *largest_.robustness();
-  fill(result, {bound_ - mean_square_.root(), largest.time}, wording().unit);
-  result.explanation = "rms of " + wording().what + " was " + with_unit(mean_square_.root(), wording().unit) +
-                       ", must be " + wording().bound + "; largest " +
-                       with_unit(largest.margin, wording().unit) + at(largest.time);
+  fill(result, {bound_ - mean_square_.root(), largest.time}, wording());
+  result.explanation = "rms of " + wording().what + " was " + wording().say(mean_square_.root()) +
+                       ", must be " + wording().bound + "; largest " + wording().say(largest.margin) +
+                       at(largest.time);
 }
 
 Stays::Stays(Subject subject, Wording wording, std::optional<double> tolerated_for, double tick)
@@ -81,9 +85,14 @@ void Stays::take(double time) {
 }
 
 void Stays::conclude(CheckResult& result) const {
-  fill(result, always_.robustness().value_or(latest_), wording().unit);
-  result.explanation = wording().what + " came to " + with_unit(worst_value_, wording().unit) +
-                       ", must stay " + wording().bound;
+  fill(result, always_.robustness().value_or(latest_), wording());
+  result.explanation =
+      wording().what + " came to " + wording().say(worst_value_) + ", must stay " + wording().bound;
+}
+
+std::string Stays::objection() const {
+  const bool never_judged = recently_ && !always_.robustness();
+  return never_judged && worst_margin_ < 0.0 ? "its window was shorter than tolerated_for" : "";
 }
 
 Measured StaysBetween::measure() const {
@@ -96,14 +105,23 @@ Measured StaysBetween::measure() const {
 }
 
 Measured StaysInTube::measure() const {
-  const double distance = to_polyline(subject().vector(), route_).norm();
+  const double distance = to_polyline(subject().vector(), autopilot_.route).norm();
   return {radius_ - distance, distance};
 }
 
+void StaysInTube::take(double time) {
+  flown_ = flown_ || (autopilot_.flight.companion_flies() && autopilot_.trajectory.valid);
+  Stays::take(time);
+}
+
+std::string StaysInTube::objection() const {
+  return flown_ ? Stays::objection() : "the route was never flown";
+}
+
 void FinalBelow::conclude(CheckResult& result) const {
-  fill(result, {bound_ - last_.margin, last_.time}, wording().unit);
-  result.explanation = wording().what + " ended " + with_unit(last_.margin, wording().unit) + " off" +
-                       at(last_.time) + ", must be " + wording().bound;
+  fill(result, {bound_ - last_.margin, last_.time}, wording());
+  result.explanation = wording().what + " ended " + wording().say(last_.margin) + " off" + at(last_.time) +
+                       ", must be " + wording().bound;
 }
 
 void Settles::take(double time) {
@@ -122,7 +140,7 @@ void Settles::conclude(CheckResult& result) const {
     result.explanation = "the run ended before " + wording().what + " had to be settled";
     return;
   }
-  fill(result, *always_.robustness(), wording().unit);
+  fill(result, *always_.robustness(), wording());
   result.explanation = outside_ ? wording().what + " had not settled at the end"
                                 : wording().what + " settled after " + with_unit(settled_at_ - *start_, "s");
   result.explanation += ", must be " + wording().bound;
@@ -130,24 +148,33 @@ void Settles::conclude(CheckResult& result) const {
 
 void OvershootBelow::take(double time) {
   const double offset = subject().offset_from(target_);
-  if (!direction_) direction_ = offset > 0.0 ? -1.0 : 1.0;
+  if (!direction_) {
+    direction_ = offset > 0.0 ? -1.0 : 1.0;
+    started_off_ = std::abs(offset);
+  }
   always_.sample(time, bound_ - *direction_ * offset);
 }
 
 void OvershootBelow::conclude(CheckResult& result) const {
   const stl::Robustness found = *always_.robustness();
-  fill(result, found, wording().unit);
+  fill(result, found, wording());
   const double past = bound_ - found.margin;
-  result.explanation =
-      wording().what +
-      (past > 0.0 ? " went " + with_unit(past, wording().unit) + " past its target" + at(found.time)
-                  : std::string(" never passed its target")) +
-      ", must be " + wording().bound;
+  result.explanation = wording().what +
+                       (past > 0.0 ? " went " + wording().say(past) + " past its target" + at(found.time)
+                                   : std::string(" never passed its target")) +
+                       ", must be " + wording().bound;
+}
+
+std::string OvershootBelow::objection() const {
+  if (started_off_ <= bound_) return "it was there from the start";
+  const double nearest = bound_ - always_.robustness()->margin;
+  return nearest < -bound_ ? "it came no nearer than " + wording().say(-nearest) : "";
 }
 
 void Reaches::take(double time) {
   if (time > by_) return;
   const double margin = tolerance_ - std::abs(subject().offset_from(target_));
+  was_outside_ = was_outside_ || margin < 0.0;
   eventually_.sample(time, margin);
   if (margin >= 0.0 && !first_inside_) first_inside_ = time;
 }
@@ -155,11 +182,14 @@ void Reaches::take(double time) {
 void Reaches::conclude(CheckResult& result) const {
   if (!eventually_.robustness()) return fill_unseen(result, wording().what);
   const stl::Robustness found = *eventually_.robustness();
-  fill(result, found, wording().unit);
-  result.explanation = wording().what +
-                       (first_inside_ ? " was there" + at(*first_inside_) + ", nearest" : " came nearest") +
-                       at(found.time) + " at " + with_unit(tolerance_ - found.margin, wording().unit) +
-                       ", must come " + wording().bound;
+  fill(result, found, wording());
+  result.explanation =
+      wording().what + (first_inside_ ? " was there" + at(*first_inside_) + ", nearest" : " came nearest") +
+      at(found.time) + " at " + wording().say(tolerance_ - found.margin) + ", must come " + wording().bound;
+}
+
+std::string Reaches::objection() const {
+  return was_outside_ || may_be_there_ ? "" : "it was there from the start; `after` says from when it counts";
 }
 
 }  // namespace ironbird::scenarios

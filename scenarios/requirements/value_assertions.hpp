@@ -20,10 +20,17 @@ struct Wording {
   std::string bound;  ///< for example "below 1 m"
   std::string what;   ///< the subject's name
   std::string unit;   ///< of the margin
+  Angles angles = Angles::kDegrees;
+
+  std::string say(double value) const { return with_unit(value, unit, angles); }
 };
 
 /// Fills a result from a margin: pass when it is not negative.
-void fill(CheckResult& result, const stl::Robustness& found, const std::string& unit);
+void fill(CheckResult& result, const stl::Robustness& found, const std::string& unit,
+          Angles angles = Angles::kDegrees);
+inline void fill(CheckResult& result, const stl::Robustness& found, const Wording& wording) {
+  fill(result, found, wording.unit, wording.angles);
+}
 
 /// Fills a result for a check that saw no sample.
 void fill_unseen(CheckResult& result, const std::string& what);
@@ -48,6 +55,8 @@ class ValueAssertion : public Assertion {
   virtual bool applies() const { return true; }
   virtual void take(double time) = 0;
   virtual void conclude(CheckResult& result) const = 0;
+  /// Why a pass would show nothing, because what is claimed had no occasion; empty when it had.
+  virtual std::string objection() const { return ""; }
 
   const Subject& subject() const { return subject_; }
   const Wording& wording() const { return wording_; }
@@ -85,8 +94,9 @@ class Stays : public ValueAssertion {
   /// The margin of the sample seen now.
   virtual Measured measure() const = 0;
 
-  void take(double time) final;
+  void take(double time) override;
   void conclude(CheckResult& result) const final;
+  std::string objection() const override;
 
  private:
   std::optional<stl::Recently> recently_;
@@ -111,20 +121,26 @@ class StaysBetween final : public Stays {
   double high_;
 };
 
-/// Near the polyline of the waypoints, while there are any.
+/// Near the polyline of the waypoints, while there are any. It must have been flown along, or the check shows
+/// nothing: a wide tube reaches down to a vehicle on the ground.
 class StaysInTube final : public Stays {
  public:
   StaysInTube(Subject subject, Wording wording, std::optional<double> tolerated_for, double tick,
-              double radius, const autopilot::Route& route)
-      : Stays(std::move(subject), std::move(wording), tolerated_for, tick), radius_(radius), route_(route) {}
+              double radius, const autopilot::Signals& autopilot)
+      : Stays(std::move(subject), std::move(wording), tolerated_for, tick),
+        radius_(radius),
+        autopilot_(autopilot) {}
 
  protected:
-  bool applies() const override { return !route_.waypoints.empty(); }
+  bool applies() const override { return !autopilot_.route.waypoints.empty(); }
   Measured measure() const override;
+  void take(double time) override;
+  std::string objection() const override;
 
  private:
   double radius_;
-  const autopilot::Route& route_;
+  const autopilot::Signals& autopilot_;
+  bool flown_ = false;
 };
 
 /// final_below.
@@ -165,7 +181,8 @@ class Settles final : public ValueAssertion {
   bool outside_ = false;
 };
 
-/// overshoot_below: how far a number goes past its target, seen from where it started.
+/// overshoot_below: how far a number goes past its target, seen from where it started. It must have started
+/// farther off than the bound and come as near: what never approaches its target cannot overshoot it.
 class OvershootBelow final : public ValueAssertion {
  public:
   OvershootBelow(Subject subject, Wording wording, double bound, Eigen::Vector3d target)
@@ -174,32 +191,41 @@ class OvershootBelow final : public ValueAssertion {
  protected:
   void take(double time) override;
   void conclude(CheckResult& result) const override;
+  std::string objection() const override;
 
  private:
   double bound_;
   Eigen::Vector3d target_;
   std::optional<double> direction_;
+  double started_off_ = 0.0;
   stl::Always always_;
 };
 
-/// reaches: once within the tolerance of the target.
+/// reaches: once within the tolerance of the target. From the start of the run on it must have been outside
+/// before.
 class Reaches final : public ValueAssertion {
  public:
   /// @param by  time of the run, s; infinity: any
-  Reaches(Subject subject, Wording wording, double tolerance, double by, Eigen::Vector3d target)
+  /// @param may_be_there  when the window opens
+  Reaches(Subject subject, Wording wording, double tolerance, double by, Eigen::Vector3d target,
+          bool may_be_there)
       : ValueAssertion(std::move(subject), std::move(wording)),
         tolerance_(tolerance),
         by_(by),
-        target_(std::move(target)) {}
+        target_(std::move(target)),
+        may_be_there_(may_be_there) {}
 
  protected:
   void take(double time) override;
   void conclude(CheckResult& result) const override;
+  std::string objection() const override;
 
  private:
   double tolerance_;
   double by_;
   Eigen::Vector3d target_;
+  bool may_be_there_;
+  bool was_outside_ = false;
   stl::Eventually eventually_;
   std::optional<double> first_inside_;
 };

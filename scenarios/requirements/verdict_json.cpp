@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
 
 namespace ironbird::scenarios {
 
@@ -16,6 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kMinusInfinity = "-infinity";
+/// Said of a margin that people read in radians; of others nothing is.
+constexpr const char* kRadians = "radians";
 
 /// JSON has no word for infinite: null for "none", a text for a margin without end.
 Json number(double value) {
@@ -37,13 +40,15 @@ Outcome outcome_from(const std::string& text) {
 }
 
 Json check_to_json(const CheckResult& check) {
-  return {{"name", check.name},
-          {"kind", check.kind},
-          {"verdict", name_of(check.outcome)},
-          {"margin", number(check.margin)},
-          {"unit", check.unit},
-          {"time", number(check.time)},
-          {"explanation", check.explanation}};
+  Json json{{"name", check.name},
+            {"kind", check.kind},
+            {"verdict", name_of(check.outcome)},
+            {"margin", number(check.margin)},
+            {"unit", check.unit},
+            {"time", number(check.time)},
+            {"explanation", check.explanation}};
+  if (check.angles == Angles::kRadians) json["angles"] = kRadians;
+  return json;
 }
 
 CheckResult check_from_json(const Json& json) {
@@ -53,7 +58,8 @@ CheckResult check_from_json(const Json& json) {
           .margin = number_at(json, "margin"),
           .unit = json.at("unit"),
           .time = number_at(json, "time"),
-          .explanation = json.at("explanation")};
+          .explanation = json.at("explanation"),
+          .angles = json.value("angles", "") == kRadians ? Angles::kRadians : Angles::kDegrees};
 }
 
 /// Unit and meaning of a metric; empty for one that this version does not know.
@@ -111,10 +117,7 @@ Verdict verdict_from_json(const std::string& text) {
 }
 
 void write_verdict(const Verdict& verdict, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << to_json(verdict);
-  stream.close();
-  if (!stream) throw UserError(file.string() + ": cannot be written");
+  write_file(file, to_json(verdict));
 }
 
 Verdict read_verdict(const std::filesystem::path& file) {

@@ -31,7 +31,7 @@ std::string padded(std::string text, std::size_t width) {
 
 std::string margin_text(const CheckResult& check) {
   if (std::isnan(check.margin)) return "-";
-  return (check.margin >= 0.0 ? "+" : "") + with_unit(check.margin, check.unit);
+  return (check.margin >= 0.0 ? "+" : "") + with_unit(check.margin, check.unit, check.angles);
 }
 
 std::string time_text(const CheckResult& check) {

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <stdexcept>
 
+#include "scenarios/requirements/number_text.hpp"
 #include "scenarios/requirements/quantity_text.hpp"
 
 namespace ironbird::scenarios {
@@ -53,6 +54,20 @@ bool Window::contains(double time, const Timeline& timeline) {
   }
   if (!from_ || time < *from_ - kTimeRoundOff) return false;
   return !to_ || time <= *to_ + kTimeRoundOff;
+}
+
+std::string Window::why_empty(double end) const {
+  if (!from_) return after_.event + " never happened";
+  const std::string opened = "its window opened at " + with_unit(*from_, "s");
+  if (*from_ > end) return "the run ended at " + with_unit(end, "s") + ", before " + opened;
+  return to_ ? opened + ", after it had closed at " + with_unit(*to_, "s") : "nothing was observed";
+}
+
+std::string Window::why_open(double end) const {
+  if (!until_) return "";
+  if (!to_) return until_->event + " never happened";
+  if (*to_ <= end + kTimeRoundOff) return "";
+  return "the run ended at " + with_unit(end, "s") + ", before its window closed at " + with_unit(*to_, "s");
 }
 
 }  // namespace ironbird::scenarios

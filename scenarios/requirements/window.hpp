@@ -9,8 +9,14 @@ namespace ironbird::scenarios {
 
 /// A time of the run, or a time after an event.
 struct Moment {
-  double offset = 0.0;  ///< s
-  std::string event;    ///< empty: after the start of the run
+  double offset = 0.0;
+  std::string event;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("offset", self.offset, "s", "after the event");
+    visit("event", self.event, "", "empty: the start of the run");
+  }
 
   /// Reads `10 s`, `offboard` or `gnss_dropout + 5 s`. @throws std::invalid_argument naming `what`
   static Moment read(const std::string& text, const std::string& what);
@@ -28,11 +34,11 @@ class Window {
 
   bool contains(double time, const Timeline& timeline);
 
-  /// When it opened, s; nothing if it did not.
-  const std::optional<double>& opened() const { return from_; }
+  /// Why no moment of a run that ended at `end`, s, lay in it.
+  std::string why_empty(double end) const;
 
-  /// The event that it waits for to open.
-  const std::string& opening_event() const { return after_.event; }
+  /// Why it was still open when the run ended at `end`, s, although it has an end; empty when it was not.
+  std::string why_open(double end) const;
 
  private:
   Moment after_;

@@ -6,11 +6,13 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "autopilot/types/flight_status.hpp"
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/held_column.hpp"
+#include "scenarios/record/logged_route.hpp"
 #include "scenarios/video/camera_work.hpp"
 #include "scenarios/video/pose_track.hpp"
 
@@ -62,44 +64,33 @@ std::string phase_name(double phase) {
   return "";
 }
 
-// Takes the longest route of the log: later ones may be cleared or cut short. Returns when another one, such
-// as the way home, took its place, s.
-double read_route(const Log& log, FilmScript& script) {
-  double replaced_at = std::numeric_limits<double>::infinity();
-  const LogTopic* route = log.topic("/autopilot/route");
-  if (route == nullptr) {
-    return replaced_at;
+// From when to when waypoints that are reached are those of the route that is drawn, s.
+struct RouteSpan {
+  double begin = 0.0;
+  double end = std::numeric_limits<double>::infinity();
+};
+
+// Draws the route of the run, and tells when it and its like were in force.
+RouteSpan read_route(const Log& log, FilmScript& script) {
+  const std::vector<LoggedRoute> routes = logged_routes(log);
+  const std::optional<std::size_t> main = main_route(routes);
+  if (!main) {
+    return {};
   }
-  std::vector<Vector3> longest_N;
-  bool cyclic = false;
-  for (std::size_t message = 0; message < route->time().size(); ++message) {
-    std::vector<Vector3> points_N;
-    for (std::size_t i = 0;; ++i) {
-      const std::string name = "waypoints[" + std::to_string(i) + "].p_N.";
-      if (!route->has(name + "x") || !std::isfinite(route->column(name + "x")[message])) {
-        break;
-      }
-      points_N.emplace_back(route->column(name + "x")[message], route->column(name + "y")[message],
-                            route->column(name + "z")[message]);
-    }
-    const bool is_another = !longest_N.empty() && (points_N.empty() || points_N.front() != longest_N.front());
-    if (is_another) {
-      replaced_at = std::min(replaced_at, route->time()[message]);
-    }
-    if (points_N.size() > longest_N.size()) {
-      longest_N = points_N;
-      replaced_at = std::numeric_limits<double>::infinity();
-      cyclic = route->has("cyclic") && route->column("cyclic")[message] > 0.5;
-    }
+  const LoggedRoute& route = routes[*main];
+  for (std::size_t i = 0; i < route.waypoints_N.size(); ++i) {
+    script.waypoints.push_back({route.waypoints_N[i], std::to_string(i + 1), false});
   }
-  for (std::size_t i = 0; i < longest_N.size(); ++i) {
-    script.waypoints.push_back({longest_N[i], std::to_string(i + 1), false});
+  script.planned_path_N = route.waypoints_N;
+  if (route.cyclic && route.waypoints_N.size() > 2) {
+    script.planned_path_N.push_back(route.waypoints_N.front());
   }
-  script.planned_path_N = longest_N;
-  if (cyclic && longest_N.size() > 2) {
-    script.planned_path_N.push_back(longest_N.front());
-  }
-  return replaced_at;
+  std::size_t first = *main, last = *main;
+  while (first > 0 && routes[first - 1].begins_like(route)) --first;
+  while (last + 1 < routes.size() && routes[last + 1].begins_like(route)) ++last;
+  RouteSpan span{routes[first].since};
+  if (last + 1 < routes.size()) span.end = routes[last].until;
+  return span;
 }
 
 // The last event of the flight that is still fresh, or an empty text. What the FCU says about itself and
@@ -119,10 +110,11 @@ std::string event_at(const LogTopic* events, double time) {
 
 class Director {
  public:
-  /// @param route_end  s, when the route that is drawn was replaced: waypoints reached later are not its own
-  Director(const Log& log, const FilmOptions& options, double route_end)
+  /// @param route  when the route that is drawn was in force: waypoints reached at other times are not its
+  /// own
+  Director(const Log& log, const FilmOptions& options, RouteSpan route)
       : options_(options),
-        route_end_(route_end),
+        route_(route),
         shown_topic_(need(log, options.from_estimate ? "/autopilot/estimate" : "/truth/state")),
         shown_(shown_topic_),
         estimate_topic_(log.topic("/autopilot/estimate")),
@@ -157,7 +149,8 @@ class Director {
     frame.time = time;
     frame.truth.pose = shown_.at(time);
     turn_rotors(frame.truth, time);
-    most_reached_ = time < route_end_ ? static_cast<int>(reached_.at(time)) : most_reached_;
+    const bool is_in_force = time >= route_.begin && time < route_.end;
+    if (is_in_force) most_reached_ = static_cast<int>(reached_.at(time));
     frame.waypoints_reached = most_reached_;
     const double speed =
         (shown_.at(time).p_NB_N - shown_.at(time - kSpeedWindow).p_NB_N).norm() / kSpeedWindow;
@@ -181,7 +174,8 @@ class Director {
     std::string line;
     if (!options_.from_estimate && estimate_topic_ != nullptr && !estimate_topic_->time().empty()) {
       frame.estimate = PoseTrack(*estimate_topic_).at(time);
-      line = formatted("estimate off %.2f m", (frame.estimate->p_NB_N - frame.truth.pose.p_NB_N).norm(), 0.0);
+      line = formatted("estimate (ghost) off %.2f m",
+                       (frame.estimate->p_NB_N - frame.truth.pose.p_NB_N).norm(), 0.0);
     }
     if (flying) {
       line += formatted(line.empty() ? "tracking off %.2f m" : "   tracking off %.2f m", off, 0.0);
@@ -229,7 +223,7 @@ class Director {
   }
 
   const FilmOptions& options_;
-  double route_end_;
+  RouteSpan route_;
   int most_reached_ = 0;
   const LogTopic& shown_topic_;
   PoseTrack shown_;
@@ -248,14 +242,13 @@ class Director {
 
 FilmScript film_script(const Log& log, const FilmOptions& options) {
   FilmScript script;
-  const std::filesystem::path root = std::filesystem::absolute(options.project_root);
-  script.renderer = {(root / metadata(log, "vehicle", "models/x650") / "scene.xml").string(),
-                     (root / metadata(log, "field", "models/fields/flat.xml")).string(), options.width,
-                     options.height, options.quality};
+  script.renderer = {std::filesystem::absolute(options.vehicle_scene).string(),
+                     std::filesystem::absolute(options.field).string(), options.width, options.height,
+                     options.quality};
   script.frame_rate = options.frame_rate;
   script.title = metadata(log, "title", "");
-  const double route_end = read_route(log, script);
-  Director(log, options, route_end).shoot(script);
+  const RouteSpan route = read_route(log, script);
+  Director(log, options, route).shoot(script);
   return script;
 }
 

@@ -35,7 +35,8 @@ struct FilmCut {
 
 /// How to make a film of a log.
 struct FilmOptions {
-  std::filesystem::path project_root;
+  std::filesystem::path vehicle_scene;
+  std::filesystem::path field;
   int width = 1280;
   int height = 720;
   int frame_rate = 30;
@@ -48,7 +49,8 @@ struct FilmOptions {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("project_root", self.project_root, "", "folder that the log's vehicle and field are relative to");
+    visit("vehicle_scene", self.vehicle_scene, "", "how the vehicle looks");
+    visit("field", self.field, "", "how the place looks");
     visit("width", self.width, "px", "even", 16, 3840);
     visit("height", self.height, "px", "even", 16, 2160);
     visit("frame_rate", self.frame_rate, "1/s", "pictures per second of flight", 1, 120);

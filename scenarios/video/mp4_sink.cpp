@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
 
 #include "scenarios/video/video_sink.hpp"
 
@@ -148,7 +149,7 @@ class Mp4Sink final : public VideoSink {
       }
       std::fclose(stream);
     }
-    throw UserError(file_.string() + ": '" + program_ + "' failed: " + line);
+    throw UserError(with_remedy(file_.string() + ": '" + program_ + "' failed: " + line));
   }
 
   std::string program_;

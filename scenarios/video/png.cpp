@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -22,7 +23,7 @@ png_image empty_description() {
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
-  throw UserError(file.string() + ": " + why);
+  throw UserError(with_remedy(file.string() + ": " + why));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
 
 #include "scenarios/video/video_sink.hpp"
 
@@ -40,7 +41,7 @@ class Y4mSink final : public VideoSink {
  private:
   void check() {
     if (!stream_) {
-      throw UserError(file_.string() + ": cannot be written: " + std::strerror(errno));
+      throw UserError(with_remedy(file_.string() + ": cannot be written: " + std::strerror(errno)));
     }
   }
 

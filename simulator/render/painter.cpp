@@ -143,7 +143,7 @@ void Painter::plate(const Vector3& center_N, double radius_px, Pixel fill, Pixel
   }
   const int left = static_cast<int>(std::lround(center->u - 0.5 * letters.text_width(label)));
   const int baseline = static_cast<int>(std::lround(center->v + 0.5 * letters.cap_height()));
-  text(left, baseline, label, rim, letters, center->depth);
+  text(left, baseline, label, rim, letters, center->depth, opacity);
 }
 
 void Painter::halo(const Vector3& center_N, double radius_px, double width, Pixel color, double opacity) {
@@ -204,7 +204,7 @@ void Painter::rotor(const Vector3& center_N, const Vector3& axis_N, const Vector
 }
 
 void Painter::text(int left, int baseline, std::string_view text, Pixel color, const GlyphAtlas& letters,
-                   double depth) {
+                   double depth, double opacity) {
   int pen = left - letters.left_bearing();
   const int top = baseline - letters.baseline();
   for (const char character : text) {
@@ -214,7 +214,7 @@ void Painter::text(int left, int baseline, std::string_view text, Pixel color, c
         const std::uint8_t cover = glyph.coverage[static_cast<std::size_t>(y * glyph.width + x)];
         if (cover > 0) {
           const double seen = depth < depth_.at(pen + x, top + y) + 0.02 ? 1.0 : kHiddenOpacity;
-          blend(image_.at(pen + x, top + y), color, seen * cover / 255.0);
+          blend(image_.at(pen + x, top + y), color, opacity * seen * cover / 255.0);
         }
       }
     }

@@ -42,6 +42,7 @@ class Painter {
   void ring(const Vector3& center_N, double radius, double width, Pixel color, double opacity);
 
   /// A round plate that faces the camera, with a rim and a text in it.
+  /// @param opacity  of plate and text
   void plate(const Vector3& center_N, double radius_px, Pixel fill, Pixel rim, double opacity,
              std::string_view label, const GlyphAtlas& letters);
 
@@ -53,8 +54,9 @@ class Painter {
 
   /// @param left, baseline  px
   /// @param depth  m, where the text stands; 0: in front of everything
+  /// @param opacity  0..1
   void text(int left, int baseline, std::string_view text, Pixel color, const GlyphAtlas& letters,
-            double depth = 0.0);
+            double depth = 0.0, double opacity = 1.0);
 
   /// Darkens a rectangle.
   void shade(int left, int top, int right, int bottom, double opacity);

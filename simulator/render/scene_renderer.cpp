@@ -20,6 +20,8 @@ constexpr double kGhostBegins = 0.05;  // m between truth and estimate, from whe
 constexpr double kGhostFull = 0.40;    // m
 
 constexpr double kSmallVehicle = 20.0;  // px at 720 rows: a vehicle of a smaller radius is ringed
+constexpr double kPlate = 14.0;         // px at 720 rows: radius of a waypoint's plate
+constexpr double kFaintPlate = 0.15;    // of its opacity that a plate keeps where the vehicle is
 constexpr double kHalo = 20.0;          // px at 720 rows, just outside a waypoint's plate
 
 constexpr Pixel kPathColor{255, 255, 255, 255};
@@ -141,7 +143,11 @@ struct SceneRenderer::Parts {
   void draw_rotors(const RenderSample& sample, Painter& painter) const;
   void draw_ghost(const RenderSample& sample, const Pose& estimate, const Projection& projection,
                   Image& image);
-  void draw_route(const Overlays& overlays, Painter& painter) const;
+  void draw_route(const RenderSample& sample, const Overlays& overlays, const Projection& projection,
+                  Painter& painter) const;
+  std::optional<ScreenPoint> small_vehicle(const RenderSample& sample, const Projection& projection) const;
+  double clearance(const WaypointMark& mark, const std::optional<ScreenPoint>& vehicle,
+                   const Projection& projection) const;
   void draw_text(const Overlays& overlays, Painter& painter) const;
   void draw_halo(const RenderSample& sample, const Overlays& overlays, const Projection& projection,
                  Painter& painter) const;
@@ -199,7 +205,18 @@ void SceneRenderer::Parts::draw_ghost(const RenderSample& sample, const Pose& es
   }
 }
 
-void SceneRenderer::Parts::draw_route(const Overlays& overlays, Painter& painter) const {
+/// Where the vehicle is in the picture when it is so small that a waypoint's plate would hide it.
+std::optional<ScreenPoint> SceneRenderer::Parts::small_vehicle(const RenderSample& sample,
+                                                               const Projection& projection) const {
+  const std::optional<ScreenPoint> center = projection.project(sample.pose.p_NB_N);
+  const bool is_small =
+      center && projection.focal() * solids.vehicle_radius() / center->depth <= kSmallVehicle * scale;
+  return is_small ? center : std::nullopt;
+}
+
+void SceneRenderer::Parts::draw_route(const RenderSample& sample, const Overlays& overlays,
+                                      const Projection& projection, Painter& painter) const {
+  const std::optional<ScreenPoint> vehicle = small_vehicle(sample, projection);
   painter.path(overlays.planned_path_N, 2.0 * scale, kPathColor, 0.85, 0.5);
   const std::size_t count = overlays.trail_N.size();
   for (std::size_t i = 1; i < count; ++i) {
@@ -211,20 +228,28 @@ void SceneRenderer::Parts::draw_route(const Overlays& overlays, Painter& painter
     const Vector3 foot_N(mark.p_N.x(), mark.p_N.y(), 0.0);
     painter.line(foot_N, mark.p_N, 1.4 * scale, kPathColor, 0.55);
     painter.ring(foot_N, 0.35, 1.6 * scale, kPathColor, 0.75);
-    painter.plate(mark.p_N, 14.0 * scale, color, kTextColor, mark.reached ? 0.75 : 0.95, mark.label,
-                  small_letters);
+    const double opacity = (mark.reached ? 0.75 : 0.95) * clearance(mark, vehicle, projection);
+    painter.plate(mark.p_N, kPlate * scale, color, kTextColor, opacity, mark.label, small_letters);
   }
 }
 
-/// From far away the vehicle is a few dark pixels, often behind a waypoint's plate: say where it is. Not in a
-/// picture without overlays, which is to show the scene alone.
+/// How much of a plate to show, 0..1: little of one that the small vehicle flies behind or in front of.
+double SceneRenderer::Parts::clearance(const WaypointMark& mark, const std::optional<ScreenPoint>& vehicle,
+                                       const Projection& projection) const {
+  const std::optional<ScreenPoint> plate = projection.project(mark.p_N);
+  if (!plate || !vehicle) {
+    return 1.0;
+  }
+  const double apart = std::hypot(plate->u - vehicle->u, plate->v - vehicle->v) / scale;
+  return std::clamp((apart - kPlate) / kHalo, kFaintPlate, 1.0);
+}
+
+/// From far away the vehicle is a few dark pixels: say where it is. Not in a picture without overlays, which
+/// is to show the scene alone.
 void SceneRenderer::Parts::draw_halo(const RenderSample& sample, const Overlays& overlays,
                                      const Projection& projection, Painter& painter) const {
-  if (overlays.trail_N.empty() && overlays.waypoints.empty()) {
-    return;
-  }
-  const std::optional<ScreenPoint> center = projection.project(sample.pose.p_NB_N);
-  if (!center || projection.focal() * solids.vehicle_radius() / center->depth > kSmallVehicle * scale) {
+  const bool has_overlays = !overlays.trail_N.empty() || !overlays.waypoints.empty();
+  if (!has_overlays || !small_vehicle(sample, projection)) {
     return;
   }
   painter.halo(sample.pose.p_NB_N, kHalo * scale, 4.4 * scale, kTextColor, 0.5);
@@ -274,7 +299,7 @@ Image SceneRenderer::render(const RenderSample& sample, const Camera& camera, co
   parts.backdrop.draw(projection, shadows, image);
   parts.draw_solids(projection, image);
   Painter painter(image, parts.depth, projection);
-  parts.draw_route(overlays, painter);
+  parts.draw_route(sample, overlays, projection, painter);
   parts.draw_rotors(sample, painter);
   if (overlays.estimate) {
     parts.draw_ghost(sample, *overlays.estimate, projection, image);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
@@ -13,6 +12,8 @@
 
 #include "simulator/frames/ned_nwu.hpp"
 #include "simulator/render/offscreen_context.hpp"
+#include "simulator/render/plain_words.hpp"
+#include "simulator/render/root_scene.hpp"
 
 namespace ironbird::simulator {
 namespace {
@@ -20,35 +21,28 @@ namespace {
 constexpr const char* kRootName = "ironbird_scene.xml";
 constexpr int kMaxGeoms = 4000;
 
-/// @param field  may be empty: none
-std::string scene_text(const std::string& vehicle, const std::string& field) {
-  return "<mujoco><option gravity='0 0 0'/><visual><headlight ambient='0.36 0.38 0.42' diffuse='0.16 0.16 "
-         "0.17' "
-         "specular='0.1 0.1 0.1'/></visual><include file='" +
-         vehicle + "'/>" + (field.empty() ? "" : "<include file='" + field + "'/>") + "</mujoco>";
+/// The name of a rotor's body and of its joint.
+std::string rotor_name(int rotor) {
+  return "rotor_" + std::to_string(rotor);
 }
 
-/// The engine's message, which may have several lines, on one.
-std::string on_one_line(const char* message) {
-  std::istringstream words(message);
-  std::string line;
-  for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
-  return line;
-}
-
-/// The engine's message without what only says how it came to read the file.
-std::string short_words(std::string message) {
-  for (const std::string_view lead : {"XML Error: ", "Error: ", "Include error: "}) {
-    if (message.starts_with(lead)) message.erase(0, lead.size());
+/// What the scene lacks to be a vehicle's, or nothing.
+std::string lack_of(const mjModel& model) {
+  const int vehicle = mj_name2id(&model, mjOBJ_BODY, "vehicle");
+  if (vehicle < 0) return "has no body named 'vehicle'";
+  const int joint = model.body_jntadr[vehicle];
+  if (joint < 0 || model.jnt_type[joint] != mjJNT_FREE) return "the body 'vehicle' has no free joint";
+  for (int i = 0; i < kMaxRotors && mj_name2id(&model, mjOBJ_BODY, rotor_name(i).c_str()) >= 0; ++i) {
+    const int hinge = mj_name2id(&model, mjOBJ_JOINT, rotor_name(i).c_str());
+    if (hinge < 0 || model.jnt_type[hinge] != mjJNT_HINGE)
+      return "the body '" + rotor_name(i) + "' has no hinge of its name";
   }
-  const std::size_t tail = message.find(" Element 'include'");
-  if (tail != std::string::npos) message.erase(tail);
-  return message;
+  return "";
 }
 
 /// The scene, or null and what is wrong with it.
 mjModel* try_model(const std::string& vehicle, const std::string& field, std::string& wrong) {
-  const std::string text = scene_text(vehicle, field);
+  const std::string text = root_scene(vehicle, field);
   auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
   if (mj_makeEmptyFileVFS(files.get(), kRootName, static_cast<int>(text.size())) != 0) {
@@ -56,10 +50,13 @@ mjModel* try_model(const std::string& vehicle, const std::string& field, std::st
   }
   std::memcpy(files->filedata[mj_findFileVFS(files.get(), kRootName)], text.data(), text.size());
   std::array<char, 1000> error{};
-  mjModel* model = mj_loadXML(kRootName, files.get(), error.data(), static_cast<int>(error.size()));
+  const std::string root = folder_of_scene(vehicle) + kRootName;
+  mjModel* model = mj_loadXML(root.c_str(), files.get(), error.data(), static_cast<int>(error.size()));
   mj_deleteVFS(files.get());
-  if (model == nullptr) wrong = short_words(on_one_line(error.data()));
-  return model;
+  wrong = model == nullptr ? plain_words(error.data()) : lack_of(*model);
+  if (wrong.empty()) return model;
+  mj_deleteModel(model);
+  return nullptr;
 }
 
 mjModel* load_model(const std::string& vehicle, const std::string& field) {
@@ -186,7 +183,7 @@ struct SolidLayer::Engine {
   std::vector<RotorGeometry> find_rotors() const {
     std::vector<RotorGeometry> rotors;
     for (int i = 0; i < kMaxRotors; ++i) {
-      const std::string name = "rotor_" + std::to_string(i);
+      const std::string name = rotor_name(i);
       const int body = mj_name2id(model, mjOBJ_BODY, name.c_str());
       if (body < 0) {
         break;
@@ -295,7 +292,7 @@ void SolidLayer::pose(const RenderSample& sample, double blur_speed) {
   at[6] = attitude.z();
   for (std::size_t i = 0; i < rotors_.size(); ++i) {
     engine.data->qpos[rotors_[i].joint_address] = sample.rotor_angle[i];
-    const int body = mj_name2id(engine.model, mjOBJ_BODY, ("rotor_" + std::to_string(i)).c_str());
+    const int body = mj_name2id(engine.model, mjOBJ_BODY, rotor_name(static_cast<int>(i)).c_str());
     const bool blurred = std::abs(sample.rotor_speed[i]) > blur_speed;
     for (int k = 0; k < engine.model->body_geomnum[body]; ++k) {
       const int geom = engine.model->body_geomadr[body] + k;

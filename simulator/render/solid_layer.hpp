@@ -80,8 +80,10 @@ struct SolidPicture {
   }
 };
 
-/// Reads the scene and throws it away: whether it, and every mesh and texture that it names, is there.
-/// @throws std::invalid_argument in one line when something is wrong
+/// Reads the scene and throws it away: whether it, and every mesh and texture that it names, is there, and
+/// whether it is a vehicle's. Files that vehicle or field name are relative to the vehicle's folder.
+/// @param vehicle  absolute path without symbolic links, like `field`
+/// @throws std::invalid_argument in one line, which begins with the path of the wrong file
 void check_scene(const std::string& vehicle, const std::string& field);
 
 /// Draws the solid things of a scene, vehicle and obstacles but not the ground, with MuJoCo's renderer into

@@ -110,18 +110,6 @@ TEST(BadFileTest, AFindingInAnIncludedFileNamesThatFile) {
   EXPECT_NE(said.text.find("base.toml:2:12: duration = '8 kg'"), std::string::npos) << said.text;
 }
 
-TEST(BadFileTest, AFieldThatCannotBeDrawnIsNamed) {
-  const TemporaryFolder folder;
-  const std::string field =
-      folder.write("moon.xml", "<mujoco><worldbody><geom type='bal'/></worldbody></mujoco>");
-  const std::string file = folder.write("top.toml", "field = \"" + field + "\"\n" + kMission);
-  const Said said = run_shell(kProgram + " check " + file);
-  EXPECT_EQ(said.exit_code, 2) << said.text;
-  EXPECT_EQ(said.lines(), 1) << said.text;
-  EXPECT_NE(said.text.find("top.toml:1:9: field = "), std::string::npos) << said.text;
-  EXPECT_NE(said.text.find("cannot be drawn: " + field + ": "), std::string::npos) << said.text;
-}
-
 TEST(WarningTest, TellsWhatNeverHappenedInFlight) {
   const TemporaryFolder folder;
   const std::string file = folder.write(
@@ -136,34 +124,6 @@ TEST(WarningTest, TellsWhatNeverHappenedInFlight) {
   std::ifstream verdict(folder / "waits/verdict.json");
   const std::string json((std::istreambuf_iterator<char>(verdict)), std::istreambuf_iterator<char>());
   EXPECT_NE(json.find("event \\\"late\\\" waited for"), std::string::npos) << json.substr(0, 500);
-}
-
-TEST(BadFileTest, AVehicleWithoutASceneIsNoticedBeforeTheFlightWhenItIsToBeFilmed) {
-  const TemporaryFolder folder;
-  run_shell("cp -r models/x650 " + folder.text() + "/plain && rm " + folder.text() + "/plain/scene.xml");
-  const std::string file = folder.write("film.toml", kMission);
-  const std::string out = (folder / "out").string();
-  const Said said = run_shell(kProgram + " run " + file + " --video --set vehicle=" + folder.text() +
-                              "/plain --out " + out);
-  EXPECT_EQ(said.exit_code, 2) << said.text;
-  EXPECT_EQ(said.lines(), 1) << said.text;
-  EXPECT_NE(said.text.find("plain/scene.xml"), std::string::npos) << said.text;
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/film"));
-}
-
-TEST(BadFileTest, AMeshThatIsMissingIsNoticedBeforeTheFlightWhenItIsToBeFilmed) {
-  const TemporaryFolder folder;
-  run_shell("cp -r models/x650 " + folder.text() + "/meshed");
-  folder.write("meshed/scene.xml",
-               "<mujoco><asset><mesh name='hull' file='hull.stl'/></asset>"
-               "<worldbody><body name='vehicle'><geom type='mesh' mesh='hull'/></body></worldbody></mujoco>");
-  const std::string file = folder.write("film.toml", kMission);
-  const Said said = run_shell(kProgram + " run " + file + " --video --set vehicle=" + folder.text() +
-                              "/meshed --out " + folder.text() + "/out");
-  EXPECT_EQ(said.exit_code, 2) << said.text;
-  EXPECT_EQ(said.lines(), 1) << said.text;
-  EXPECT_NE(said.text.find("hull.stl"), std::string::npos) << said.text;
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/film"));
 }
 
 }  // namespace

@@ -11,6 +11,30 @@ namespace {
 INSTANTIATE_TEST_SUITE_P(
     Script, BadInputTest,
     ::testing::ValuesIn(std::vector<BadInput>{
+        BadInput{"RotorThatIsNotThere",
+                 mission_and("[[check]]\nsignal = \"truth.rotor_speed[7]\"\nstays_below = \"1 rad/s\"\n"),
+                 "",
+                 {"bad.toml:6:10: check[0].signal", "the vehicle has 4 rotors, from [0] to [3]"}},
+        BadInput{"OutputThatDrivesNothing",
+                 mission_and("[[check]]\nhappens = \"fcu.output_raw.values[4] > 0.5\"\n"),
+                 "",
+                 {"bad.toml:6:11: check[0].happens", "drives no rotor"}},
+        BadInput{
+            "WindowBehindTheEnd",
+            mission_and("[[check]]\nsignal = \"truth.p_NB_N\"\nstays_below = \"1 m\"\nafter = \"9 s\"\n"),
+            "",
+            {"bad.toml:8:9: check[0].after = \"9 s\"", "at most duration = 8 s"}},
+        BadInput{
+            "ToleranceWithoutEnd",
+            mission_and(
+                "[[check]]\nsignal = \"truth.p_NB_N\"\nstays_below = \"1 m\"\ntolerated_for = \"9 s\"\n"),
+            "",
+            {"bad.toml:8:17: check[0].tolerated_for = \"9 s\"", "lies beyond the end of the run"}},
+        BadInput{"SettlesAfterTheEnd",
+                 mission_and(
+                     "[[check]]\nsignal = \"truth.p_NB_N\"\nsettles = { band = \"1 m\", time = \"9 s\" }\n"),
+                 "",
+                 {"check[0].settles.time = \"9 s\"", "lies beyond the end of the run"}},
         BadInput{"RoundOfNothing",
                  "cyclic = true\n[[event]]\nat = 1\nrequest = \"return_to_launch\"\n",
                  "",

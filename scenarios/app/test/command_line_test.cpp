@@ -48,6 +48,8 @@ INSTANTIATE_TEST_SUITE_P(
                       WordCase{"VerbUnlikeAny", "wxyzwxyz", "run, check, report, video, snapshot, topics"},
                       WordCase{"Option", "run x.toml --jbos 2",
                                "--jbos: run does not take this; did you mean --jobs?"},
+                      WordCase{"OptionUnlikeAny", "check x.toml --zzzzzzzzzz",
+                               "--zzzzzzzzzz: check does not take this; see ironbird check --help"},
                       WordCase{"OptionWithValue", "run x.toml --ot=y", "did you mean --out?"},
                       WordCase{"NoScenario", "run", "scenarios is required; see ironbird run --help"},
                       WordCase{"NoNumber", "run x.toml --jobs many", "--jobs"}),

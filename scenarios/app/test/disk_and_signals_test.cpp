@@ -46,10 +46,21 @@ TEST_F(DiskTest, SaysOnceThatTheDiskIsFullAndLeavesALogThatOpens) {
   EXPECT_EQ(said.exit_code, 2) << said.text;
   EXPECT_EQ(said.lines(), 1) << said.text;
   EXPECT_NE(said.text.find("flight.mcap: writing failed"), std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("; raise the limit"), std::string::npos) << said.text;
   EXPECT_FALSE(std::filesystem::exists(out_ / "short/verdict.json"));
   const Log log = Log::read(out_ / "short/flight.mcap");
   ASSERT_NE(log.topic("/truth/state"), nullptr);
   EXPECT_GT(log.topic("/truth/state")->time().size(), 10U);
+}
+
+TEST_F(DiskTest, SaysWhatHelpsWhenThereIsNoRoom) {
+  const Said said =
+      run_shell(kProgram + " run " + file_ + " --no-log --junit /dev/full --out " + out_.string());
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(
+      said.text,
+      "/dev/full: cannot be written: No space left on device; make room there, or name another place on "
+      "the command line\n");
 }
 
 TEST_F(DiskTest, AVerdictThatCannotBeWrittenIsAnErrorToo) {

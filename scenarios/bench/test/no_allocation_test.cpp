@@ -9,7 +9,6 @@
 #include <sys/syscall.h>
 
 #include <atomic>
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -17,42 +16,17 @@
 #include "autopilot/modules.hpp"
 #include "scenarios/bench/bench.hpp"
 #include "scenarios/bench/test/system_calls.hpp"
+#include "simulator/plant/test/counted_malloc.hpp"
 
 namespace {
-std::atomic<long> calls_of_malloc{0};
 std::atomic<long> locks_taken{0};
 }  // namespace
 
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* block, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-void* malloc(std::size_t size) {
-  ++calls_of_malloc;
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  ++calls_of_malloc;
-  return __libc_calloc(count, size);
-}
-void* realloc(void* block, std::size_t size) {
-  ++calls_of_malloc;
-  return __libc_realloc(block, size);
-}
-void* memalign(std::size_t alignment, std::size_t size) {
-  ++calls_of_malloc;
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  return memalign(alignment, size);
-}
-int pthread_mutex_lock(pthread_mutex_t* mutex) {
+extern "C" int pthread_mutex_lock(pthread_mutex_t* mutex) {
   using Lock = int (*)(pthread_mutex_t*);
   static const Lock real = reinterpret_cast<Lock>(dlsym(RTLD_NEXT, "pthread_mutex_lock"));
   ++locks_taken;
   return real(mutex);
-}
 }
 
 namespace ironbird::scenarios {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -14,6 +13,7 @@
 
 #include "autopilot/modules.hpp"
 #include "scenarios/bench/bench.hpp"
+#include "simulator/random/stream.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -77,6 +77,57 @@ double expected_walk_down() {
   return kPressureDiffusion * (kWait + 0.5 * kAirborne - 1.5 * kHeightLag) / square(kPressurePerMetre);
 }
 
+/// What flights on paper come to: mean squares of one draw of the walks, m^2.
+struct PaperFlight {
+  double horizontal = 0.0;  // of one axis
+  double down = 0.0;
+  double position = 0.0;
+};
+
+/// One draw of the three walks over the flight.
+/// @param density  the error of the height that is there in every flight, m
+PaperFlight draw_on_paper(simulator::Stream& stream, double density) {
+  constexpr double kStep = 0.5;  // s, short against every time constant
+  const double keep = std::exp(-kStep / kFixTimeConstant);
+  const double fix_step = kFixStep * std::sqrt(kStep / 0.1);
+  const double height_step = std::sqrt(kPressureDiffusion * kStep) / kPressurePerMetre;
+  double north = 0.0, east = 0.0, height = 0.0, followed = 0.0;
+  PaperFlight sum;
+  const int wait = static_cast<int>(kWait / kStep), steps = static_cast<int>(kAirborne / kStep);
+  for (int i = -wait; i < steps; ++i) {
+    north = keep * north + fix_step * stream.normal();
+    east = keep * east + fix_step * stream.normal();
+    height += height_step * stream.normal();
+    followed += (height - followed) * kStep / kHeightLag;
+    if (i < 0) continue;
+    const double down = square(followed + density);
+    sum.horizontal += square(north) / steps;
+    sum.down += down / steps;
+    sum.position += (square(north) + square(east) + down) / steps;
+  }
+  return sum;
+}
+
+struct Spread {
+  double mean = 0.0;
+  double deviation = 0.0;  // of one draw
+};
+
+/// Of a figure of many flights on paper.
+template <class Figure>
+Spread on_paper(double density, const Figure& figure) {
+  constexpr int kDraws = 4000;  // so that the paper's own scatter is a sixth of that of the flights
+  simulator::Stream stream(1, "parity on paper");
+  double sum = 0.0, squares = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    const double value = figure(draw_on_paper(stream, density));
+    sum += value;
+    squares += square(value);
+  }
+  const double mean = sum / kDraws;
+  return {mean, std::sqrt(squares / kDraws - square(mean))};
+}
+
 class ParityTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -93,17 +144,15 @@ class ParityTest : public ::testing::Test {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   }
 
-  /// The mean square of `metric` agrees with `expected` as well as so many runs can tell.
-  static void expect_mean_square(const std::string& metric, double expected) {
+  /// The mean of the flights lies within standard errors of the calculated one.
+  static void expect_mean(const std::vector<double>& found, double expected, double deviation) {
+    EXPECT_NEAR(mean(found), expected, kStandardErrors * deviation / std::sqrt(kRuns));
+  }
+
+  static std::vector<double> squares_of(const std::string& metric) {
     std::vector<double> squares = of(metric);
     for (double& value : squares) value = square(value);
-    const double found = mean(squares);
-    double scatter = 0.0;
-    for (const double value : squares) scatter += square(value - found);
-    const double standard_error = std::sqrt(scatter) / kRuns;
-    EXPECT_NEAR(found, expected, kStandardErrors * standard_error) << metric;
-    // So many runs must tell something.
-    EXPECT_LT(standard_error, 0.2 * expected) << metric;
+    return squares;
   }
 
   static std::vector<Figures> runs_;
@@ -112,29 +161,38 @@ class ParityTest : public ::testing::Test {
 std::vector<Figures> ParityTest::runs_;
 
 TEST_F(ParityTest, DriftsWithTheSatelliteFixesNorthAndEast) {
-  expect_mean_square("estimate_north_rms_m", expected_horizontal());
-  expect_mean_square("estimate_east_rms_m", expected_horizontal());
+  const double deviation = on_paper(0.0, [](const PaperFlight& f) { return f.horizontal; }).deviation;
+  expect_mean(squares_of("estimate_north_rms_m"), expected_horizontal(), deviation);
+  expect_mean(squares_of("estimate_east_rms_m"), expected_horizontal(), deviation);
 }
 
 TEST_F(ParityTest, DriftsWithTheBarometerDownAroundTheErrorOfTheAirDensity) {
   const double density = fly_quietly().at("estimate_down_rms_m");
   EXPECT_NEAR(density, 0.84, 0.05);  // 12.7 % of 6.6 m
-  expect_mean_square("estimate_down_rms_m", square(density) + expected_walk_down());
+  const double deviation = on_paper(density, [](const PaperFlight& f) { return f.down; }).deviation;
+  expect_mean(squares_of("estimate_down_rms_m"), square(density) + expected_walk_down(), deviation);
 }
 
-TEST_F(ParityTest, HasTheReferencesPositionErrorAsAnOrdinaryDraw) {
-  constexpr double kReference = 1.74;
-  const std::vector<double> position = of("estimate_position_rms_m");
-  const auto below =
-      std::count_if(position.begin(), position.end(), [](double error) { return error < kReference; });
-  EXPECT_GT(below, kRuns / 4);
-  EXPECT_LT(below, kRuns * 3 / 4);
+TEST_F(ParityTest, HasTheCalculatedPositionErrorAndTheReferencesAsAnOrdinaryDraw) {
+  constexpr double kReference = 1.74;  // m
+  const double density = fly_quietly().at("estimate_down_rms_m");
+  const Spread position = on_paper(density, [](const PaperFlight& f) { return std::sqrt(f.position); });
+  const std::vector<double> flown = of("estimate_position_rms_m");
+  expect_mean(flown, position.mean, position.deviation);
+  const Spread below =
+      on_paper(density, [](const PaperFlight& f) { return std::sqrt(f.position) < kReference ? 1.0 : 0.0; });
+  std::vector<double> flown_below = flown;
+  for (double& error : flown_below) error = error < kReference ? 1.0 : 0.0;
+  expect_mean(flown_below, below.mean, below.deviation);
+  EXPECT_NEAR(below.mean, 0.45, 0.03) << "an ordinary draw, as docs/results.md says";
 }
 
+// Nothing on paper says these: they are the reference's figures, 0.23 to 0.27 deg to the digits given, about
+// 0.013 m/s.
 TEST_F(ParityTest, HasTheReferencesVelocityAndAttitudeErrorsInTheMean) {
   EXPECT_NEAR(mean(of("estimate_velocity_total_rms_mps")), 0.013, 0.002);
   const double attitude = mean(of("estimate_attitude_rms_deg"));
-  EXPECT_GT(attitude, 0.225);  // 0.23 to 0.27 deg, to the digits given
+  EXPECT_GT(attitude, 0.225);
   EXPECT_LT(attitude, 0.275);
 }
 

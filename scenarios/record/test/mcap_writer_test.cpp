@@ -324,7 +324,9 @@ TEST_F(McapWriterTest, ReportsAFullDiskOnceAndLeavesAReadableFile) {
     writer.close();
   }
   ASSERT_EQ(errors.size(), 1u);
-  EXPECT_EQ(errors.front(), path().string() + ": writing failed: File too large");
+  EXPECT_EQ(errors.front(), path().string() +
+                                ": writing failed: File too large; raise the limit, see `ulimit -f`, or name "
+                                "another place on the command line");
   const McapReader reader(path());
   EXPECT_TRUE(reader.truncated());
   EXPECT_GT(reader.messages().size(), 40u);

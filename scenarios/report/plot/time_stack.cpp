@@ -12,6 +12,7 @@ namespace {
 constexpr double kLeft = 62.0;         // px: room for the numbers of the y axis
 constexpr double kRight = 14.0;        // px
 constexpr double kLetter = 6.9;        // px: width of a letter, on the safe side
+constexpr double kApart = 10.0;        // px: between the names of two marks, at the least
 constexpr double kNames = 13.0;        // px: names of marks, topmost
 constexpr double kLane = 35.0;         // px: names and the lane of phases above the first panel
 constexpr double kCaption = 22.0;      // px: title and legend above each panel
@@ -189,11 +190,11 @@ std::string mark_names(const TimeFrame& frame, const Layout& layout) {
   for (const bool styled : {true, false}) {
     for (const Mark& mark : frame.marks) {
       const double from = layout.x(mark.time);
-      const double to = from + kLetter * static_cast<double>(mark.label.size()) + 4.0;
+      const double to = from + kLetter * static_cast<double>(mark.label.size()) + kApart;
       const bool collides = std::any_of(taken.begin(), taken.end(), [=](const auto& span) {
         return from < span.second && span.first < to;
       });
-      const bool fits = from >= kLeft && to <= layout.stack.width && !collides;
+      const bool fits = from >= kLeft && to - kApart <= layout.stack.width && !collides;
       if (mark.style.empty() == styled || mark.label.empty() || !fits) continue;
       out += text(from + 3.0, 9.0, "mark-name " + mark.style, mark.label);
       taken.emplace_back(from, to);
@@ -253,7 +254,7 @@ std::string draw(const TimeStack& stack, const TimeFrame& frame) {
                     attribute("data-left", kLeft) + attribute("data-right", layout.right()) +
                     attribute("data-from", layout.time.low) + attribute("data-to", layout.time.high) + ">";
   out += "<title>" + escaped(stack.title) + "</title><defs>" + clip_path(clip, layout) + "</defs>";
-  out += mark_names(frame, layout) + lane(frame, layout, clip) + time_axis(layout);
+  out += lane(frame, layout, clip) + mark_names(frame, layout) + time_axis(layout);
   for (std::size_t i = 0; i < stack.panels.size(); ++i)
     out += draw_panel(stack.panels[i], layout, i, frame, clip);
   return out + "</svg>";

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "scenarios/report/plot/axis.hpp"
 #include "scenarios/report/plot/decimate.hpp"
@@ -169,6 +172,40 @@ TEST(TimeStackTest, DrawsEachSeriesAndItsTitle) {
   EXPECT_NE(svg.find("data-name=\"truth\""), std::string::npos);
   EXPECT_NE(svg.find("not in the log: /x"), std::string::npos);
   EXPECT_NE(svg.find("<title>fault: gust</title>"), std::string::npos);
+}
+
+/// Where the texts of a class begin, or where their middle is, px, and what they say, from left to right.
+std::vector<std::pair<double, std::string>> texts_of(const std::string& svg, const std::string& name) {
+  std::vector<std::pair<double, std::string>> found;
+  for (std::size_t at = 0; (at = svg.find("<text", at)) != std::string::npos; ++at) {
+    const std::string tag = svg.substr(at, svg.find("</text>", at) - at);
+    if (tag.find("\"" + name) == std::string::npos) continue;
+    found.emplace_back(std::stod(tag.substr(tag.find(" x=\"") + 4)), tag.substr(tag.find('>') + 1));
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(TimeStackTest, LeavesRoomBetweenTwoNamesOnANarrowPage) {
+  constexpr double kWidestLetter = 6.9;  // px, of a face at this size
+  constexpr double kRoom = 6.0;          // px that the eye takes for a gap
+  TimeStack stack{
+      "narrow", {Panel{"north", "m", {{"truth", "c1", {0.0, 1.0}, {0.0, 2.0}}}, {}, 0.5, ""}}, 400.0, 60.0};
+  TimeFrame frame;
+  frame.range = {0.0, 100.0, false};
+  for (int i = 0; i < 200; ++i) {
+    const std::string name = "waypoint_" + std::to_string(i);
+    frame.marks.push_back({0.5 * i, name, name, ""});
+  }
+  for (int i = 0; i < 4; ++i) frame.stretches.push_back({19.0 * i, 19.0 * (i + 1), "take_off", "take_off"});
+  const std::string svg = draw(stack, frame);
+  const auto marks = texts_of(svg, "mark-name");
+  ASSERT_GT(marks.size(), 2U);
+  for (std::size_t i = 1; i < marks.size(); ++i) {
+    const double end = marks[i - 1].first + kWidestLetter * static_cast<double>(marks[i - 1].second.size());
+    EXPECT_GT(marks[i].first - end, kRoom) << marks[i].second;
+  }
+  EXPECT_TRUE(texts_of(svg, "phase-name").empty()) << "a stretch of 61 px has no room for eight letters";
 }
 
 TEST(PlaneTest, HasTheSameScaleOnBothAxes) {

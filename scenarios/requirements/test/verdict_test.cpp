@@ -210,9 +210,20 @@ TEST(VerdictJsonTest, ReadsAFileFromBeforeThereWereWarnings) {
 TEST(NumberTextTest, ShowsFourDigitsAndDegrees) {
   EXPECT_EQ(with_unit(0.0431234, "m"), "0.04312 m");
   EXPECT_EQ(with_unit(3.14159265358979 / 4.0, "rad"), "45 deg");
+  EXPECT_EQ(with_unit(0.5, "rad/s"), "28.65 deg/s");
+  EXPECT_EQ(with_unit(500.0, "rad/s", Angles::kRadians), "500 rad/s") << "of a rotor";
   EXPECT_EQ(with_unit(-0.0, "1"), "0");
   EXPECT_EQ(short_number(123456.7), "123457");
   EXPECT_EQ(short_number(std::numeric_limits<double>::quiet_NaN()), "-");
+}
+
+TEST(VerdictJsonTest, KeepsThatARotorCountsInRadians) {
+  Verdict verdict = example();
+  verdict.checks[0].unit = "rad/s";
+  verdict.checks[0].angles = Angles::kRadians;
+  EXPECT_EQ(verdict_from_json(to_json(verdict)).checks[0].angles, Angles::kRadians);
+  EXPECT_EQ(verdict_from_json(to_json(verdict)).checks[1].angles, Angles::kDegrees);
+  EXPECT_NE(verdict_table(verdict, false).find(" rad/s"), std::string::npos);
 }
 
 class JudgeTest : public ::testing::Test {

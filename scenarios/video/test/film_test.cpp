@@ -168,6 +168,11 @@ TEST_F(FilmTest, IsMadeFromALog) {
       const autopilot::Time now = std::chrono::milliseconds(10 * i);
       if (i == 50) recorder.write_once("/bench/event", RunEvent{0.5, "request", "go_on"}, now);
       if (i == 60) recorder.write_once("/bench/event", RunEvent{0.6, "snapshot", "picture here"}, now);
+      if (i == 190) {  // what comes last, however long, is not what the flight was about
+        signals.route.waypoints.resize(3);
+        signals.route.waypoints[0].p_N = Vector3(7, 8, -9);
+        recorder.write_once("/autopilot/route", signals.route, now);
+      }
       truth.p_NB_N = Vector3(0.02 * i, 0, -2);
       truth.rotor_speed[0] = 300.0;
       signals.estimate.p_NB_N = truth.p_NB_N + Vector3(0, 0.25, 0);
@@ -176,7 +181,8 @@ TEST_F(FilmTest, IsMadeFromALog) {
     recorder.close();
   }
   FilmOptions options;
-  options.project_root = IRONBIRD_SOURCE_DIR;
+  options.vehicle_scene = IRONBIRD_SOURCE_DIR "/models/x650/scene.xml";
+  options.field = IRONBIRD_SOURCE_DIR "/models/fields/yard.xml";
   options.cameras = {{"tower", {{9, 9, -9}, {0, 0, 0}, 0.7}}};
   options.cuts = {{1.0, "tower"}};
   const Log log = Log::read(folder_ / "flight.mcap");

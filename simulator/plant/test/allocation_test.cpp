@@ -3,31 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstddef>
-
+#include "simulator/plant/test/counted_malloc.hpp"
 #include "simulator/plant/test/plants.hpp"
 #include "simulator/vehicle/vehicle.hpp"
-
-namespace {
-std::atomic<long> calls_of_malloc{0};
-}
-
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-void* malloc(std::size_t size) {
-  ++calls_of_malloc;
-  return __libc_malloc(size);
-}
-void* memalign(std::size_t alignment, std::size_t size) {
-  ++calls_of_malloc;
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  return memalign(alignment, size);
-}
-}
 
 namespace ironbird::simulator {
 namespace {
@@ -62,14 +40,11 @@ long allocations_while_stepping(Plant& plant, double height) {
   return calls_of_malloc - before;
 }
 
-TYPED_TEST(AllocationTest, TakesNothingInFlight) {
-  const std::unique_ptr<Plant> plant = TypeParam::make(reference_multirotor(), FieldParams{});
-  EXPECT_EQ(allocations_while_stepping(*plant, 100.0), 0);
-}
-
-TYPED_TEST(AllocationTest, TakesNothingOnTheGround) {
-  const std::unique_ptr<Plant> plant = TypeParam::make(reference_multirotor(), FieldParams{});
-  EXPECT_EQ(allocations_while_stepping(*plant, 0.22), 0);
+TYPED_TEST(AllocationTest, TakesNothingInFlightNorOnTheGround) {
+  for (const double height : {100.0, 0.22}) {
+    const std::unique_ptr<Plant> plant = TypeParam::make(reference_multirotor(), FieldParams{});
+    EXPECT_EQ(allocations_while_stepping(*plant, height), 0) << "from a height of " << height << " m";
+  }
 }
 
 TEST(CountTest, SeesAnAllocation) {

@@ -167,6 +167,28 @@ TEST_F(SceneRendererTest, RingsAVehicleThatIsFarAwayAndNoOther) {
   EXPECT_LT(center(renderer.render(s, near_view, overlays), orange).count, 30);
 }
 
+TEST_F(SceneRendererTest, ShowsASmallVehicleThroughAPlateAndOtherPlatesInFull) {
+  RendererParams large = params("x650");
+  large.width = 1280;
+  large.height = 720;
+  SceneRenderer renderer(large);
+  const RenderSample s = sample(0.0, 0.0);
+  const Camera view{{kNorth - 40.0, 3.0, -9.0}, {kNorth, 1.0, -6.0}, 0.8};
+  const auto dark = [](const Pixel& p) { return p.r < 75 && p.g < 85 && p.b < 75; };
+  const int alone = center(renderer.render(s, view, {}), dark).count;
+  ASSERT_GT(alone, 10);
+  const auto blue = [](const Pixel& p) { return p.b > 110 && p.r < 60 && p.g < 110; };
+  // In front of the vehicle, as the camera sees it, and well beside it.
+  const Vector3 in_front = view.p_N + 0.8 * (s.pose.p_NB_N - view.p_N);
+  Overlays overlays;
+  overlays.waypoints.push_back({in_front, "", false});
+  const Image covered = renderer.render(s, view, overlays);
+  EXPECT_GT(center(covered, dark).count, alone / 2);
+  EXPECT_EQ(center(covered, blue).count, 0);
+  overlays.waypoints.front().p_N += Vector3(0.0, 5.0, 0.0);
+  EXPECT_GT(center(renderer.render(s, view, overlays), blue).count, 50);
+}
+
 TEST_F(SceneRendererTest, DoesNotRememberWhatItDrewBefore) {
   SceneRenderer renderer(params("x650"));
   Overlays overlays;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace ironbird::scenarios {
+
+/// Which scenarios, and how changed: what `run` and `check` take.
+struct ScenarioArguments {
+  std::vector<std::string> files;
+  std::vector<std::string> settings;
+  std::string seeds;
+};
+
+void add_scenario_arguments(CLI::App& app, ScenarioArguments& arguments);
+
+/// Path and text of each `--set`. @throws ConfigError for one that is not path=value
+std::vector<std::pair<std::string, std::string>> split_settings(const std::vector<std::string>& settings);
+
+/// The seeds that "7" or "1:20" means. Empty: the scenario's own seed.
+/// @throws ConfigError for what means none, and for too many
+std::vector<std::uint64_t> parse_seeds(const std::string& text);
+
+}  // namespace ironbird::scenarios
