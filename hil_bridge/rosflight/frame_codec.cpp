@@ -12,8 +12,20 @@ namespace ironbird::hil_bridge::rosflight {
 
 namespace {
 
-constexpr std::uint8_t kStart = 0xFE;
-constexpr std::size_t kHeader = 6;
+/// Place of each message number in the dialect; beyond its end for those that are not in it.
+constexpr auto kPlaces = [] {
+  std::array<std::uint8_t, 256> places{};
+  places.fill(static_cast<std::uint8_t>(kDialect.size()));
+  for (std::size_t k = 0; k < kDialect.size(); ++k) places[kDialect[k].id] = static_cast<std::uint8_t>(k);
+  return places;
+}();
+
+/// What eight bits do to the checksum.
+constexpr auto kCrcTable = [] {
+  std::array<std::uint16_t, 256> table{};
+  for (std::size_t k = 0; k < table.size(); ++k) table[k] = crc_of(0, static_cast<std::uint8_t>(k));
+  return table;
+}();
 
 template <std::size_t Size>
 using Unsigned =
@@ -79,7 +91,9 @@ class Reader {
 /// Of everything behind the start byte, and the byte that stands for the dialect.
 std::uint16_t checksum(const std::uint8_t* frame, std::size_t length, std::uint8_t extra) {
   std::uint16_t crc = kCrcStart;
-  for (std::size_t k = 1; k < kHeader + length; ++k) crc = crc_of(crc, frame[k]);
+  for (std::size_t k = 1; k < kFrameHeader + length; ++k) {
+    crc = static_cast<std::uint16_t>((crc >> 8U) ^ kCrcTable[(crc ^ frame[k]) & 0xFFU]);
+  }
   return crc_of(crc, extra);
 }
 
@@ -103,46 +117,33 @@ FrameBytes encode_frame(const Message& message, std::uint8_t sequence, Address s
   const MessageInfo& info = kDialect[message.index()];
   FrameBytes frame;
   std::uint8_t* bytes = frame.bytes.data();
-  const std::uint8_t header[kHeader] = {kStart,        info.length,      sequence,
-                                        sender.system, sender.component, info.id};
+  const std::uint8_t header[kFrameHeader] = {kFrameStart,   info.length,      sequence,
+                                             sender.system, sender.component, info.id};
   std::copy(std::begin(header), std::end(header), bytes);
-  std::visit([&](const auto& content) { content.describe(content, Writer(bytes + kHeader)); }, message);
+  std::visit([&](const auto& content) { content.describe(content, Writer(bytes + kFrameHeader)); }, message);
   const std::uint16_t crc = checksum(bytes, info.length, info.crc_extra);
-  bytes[kHeader + info.length] = static_cast<std::uint8_t>(crc & 0xFFU);
-  bytes[kHeader + info.length + 1] = static_cast<std::uint8_t>(crc >> 8U);
+  bytes[kFrameHeader + info.length] = static_cast<std::uint8_t>(crc & 0xFFU);
+  bytes[kFrameHeader + info.length + 1] = static_cast<std::uint8_t>(crc >> 8U);
   frame.size = kFrameOverhead + info.length;
   return frame;
 }
 
-std::optional<Frame> FrameDecoder::push(std::uint8_t byte) {
-  if (size_ == 0 && byte != kStart) return std::nullopt;
-  bytes_[size_++] = byte;
-  constexpr std::size_t kLengthKnown = 2;
-  if (size_ < kLengthKnown || size_ < kFrameOverhead + bytes_[1]) return std::nullopt;
-  return finish();
+const MessageInfo* message_of_header(std::span<const std::uint8_t> frame) {
+  const std::uint8_t place = kPlaces[frame[5]];
+  return place < kDialect.size() && kDialect[place].length == frame[1] ? &kDialect[place] : nullptr;
 }
 
-std::optional<Frame> FrameDecoder::finish() {
-  const std::size_t length = bytes_[1];
-  const MessageInfo* info = find_message(bytes_[5]);
-  const std::uint16_t crc = checksum(bytes_.data(), length, info == nullptr ? 0 : info->crc_extra);
-  const std::uint8_t last = bytes_[size_ - 1];
-  const bool sound = bytes_[size_ - 2] == (crc & 0xFFU) && last == crc >> 8U;
-  size_ = 0;
-  if (!sound) {
-    ++corrupted_;
-    if (last == kStart) bytes_[size_++] = kStart;
-    return std::nullopt;
-  }
-  if (info == nullptr || info->length != length) {
-    ++unknown_;
-    return std::nullopt;
-  }
-  const auto place = static_cast<std::size_t>(info - kDialect.data());
-  return Frame{
-      decoded_as(place, bytes_.data() + kHeader, std::make_index_sequence<std::variant_size_v<Message>>{}),
-      bytes_[2],
-      {bytes_[3], bytes_[4]}};
+bool sound(std::span<const std::uint8_t> frame, const MessageInfo& info) {
+  const std::uint16_t crc = checksum(frame.data(), frame.size() - kFrameOverhead, info.crc_extra);
+  return frame[frame.size() - 2] == (crc & 0xFFU) && frame[frame.size() - 1] == crc >> 8U;
+}
+
+Frame decode_frame(std::span<const std::uint8_t> frame, const MessageInfo& info) {
+  const auto place = static_cast<std::size_t>(&info - kDialect.data());
+  return {decoded_as(place, frame.data() + kFrameHeader,
+                     std::make_index_sequence<std::variant_size_v<Message>>{}),
+          frame[2],
+          {frame[3], frame[4]}};
 }
 
 }  // namespace ironbird::hil_bridge::rosflight

@@ -3,9 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <span>
 
-#include "hil_bridge/rosflight/messages.hpp"
+#include "hil_bridge/rosflight/dialect.hpp"
 
 namespace ironbird::hil_bridge::rosflight {
 
@@ -54,28 +54,17 @@ struct Frame {
   }
 };
 
-/// Finds frames in a stream of bytes, as the firmware does: one byte after the other, and a frame whose
-/// checksum is wrong is dropped with all its bytes, so that a false length can swallow the frames behind it.
-///
-/// Unlike the firmware it refuses a frame whose length is not that of its message, instead of reading what
-/// happens to lie behind its end.
-class FrameDecoder {
- public:
-  /// Takes one byte. @return the frame that it completes, if any
-  std::optional<Frame> push(std::uint8_t byte);
+inline constexpr std::uint8_t kFrameStart = 0xFE;
+inline constexpr std::size_t kFrameHeader = 6;  ///< bytes before the payload
 
-  /// Frames dropped for their checksum.
-  int corrupted() const { return corrupted_; }
-  /// Frames with a good checksum passed over for their number or length.
-  int unknown() const { return unknown_; }
+/// The message whose number and length stand in this header, or null.
+/// @param frame  begins with the start byte; at least a header long
+const MessageInfo* message_of_header(std::span<const std::uint8_t> frame);
 
- private:
-  std::optional<Frame> finish();
+/// Is the checksum at the end of this frame that of its bytes?
+bool sound(std::span<const std::uint8_t> frame, const MessageInfo& info);
 
-  std::array<std::uint8_t, kGreatestFrame> bytes_{};
-  std::size_t size_ = 0;
-  int corrupted_ = 0;
-  int unknown_ = 0;
-};
+/// The content of a sound frame.
+Frame decode_frame(std::span<const std::uint8_t> frame, const MessageInfo& info);
 
 }  // namespace ironbird::hil_bridge::rosflight
