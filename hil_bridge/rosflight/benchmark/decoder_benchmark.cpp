@@ -4,8 +4,8 @@
 
 #include "hil_bridge/rosflight/stream_decoder.hpp"
 
-// Bytes a second of the decoder, on the traffic of a flight and on the worst that can be sent. The time of one
-// byte is the reciprocal: 200 ns a byte are 5 MB/s.
+// Bytes a second of the decoder, on the traffic of a flight and on the worst that can be sent. The time of
+// one byte is the reciprocal: 200 ns a byte are 5 MB/s.
 
 namespace ironbird::hil_bridge::rosflight {
 namespace {
@@ -14,7 +14,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 void append(Bytes& stream, const Message& message, std::uint8_t sequence) {
   const FrameBytes frame = encode_frame(message, sequence, {1, 250});
-  stream.insert(stream.end(), frame.bytes.begin(), frame.bytes.begin() + static_cast<std::ptrdiff_t>(frame.size));
+  stream.insert(stream.end(), frame.bytes.begin(),
+                frame.bytes.begin() + static_cast<std::ptrdiff_t>(frame.size));
 }
 
 /// The downlink of a flight: 400 Hz IMU and attitude, every fourth a compass, every eighth the outputs.

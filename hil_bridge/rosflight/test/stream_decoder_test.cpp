@@ -25,8 +25,8 @@ Bytes traffic(std::uint32_t number) {
   const auto real = static_cast<float>(number);
   switch (number % 5U) {
     case 0:
-      return bytes(encode_frame(SmallImu{number, real, -real, -9.8F, 0.1F, 0.2F, 0.3F, 300.0F}, sequence,
-                                kFirmware));
+      return bytes(
+          encode_frame(SmallImu{number, real, -real, -9.8F, 0.1F, 0.2F, 0.3F, 300.0F}, sequence, kFirmware));
     case 1:
       return bytes(encode_frame(AttitudeQuaternion{.time_boot_ms = number, .q1 = 1.0F}, sequence, kFirmware));
     case 2:
@@ -100,7 +100,8 @@ TEST(StreamDecoderTest, LosesOnlyTheFrameThatLostBytes) {
         append(stream, Bytes(300, 0));
         StreamDecoder decoder;
         const std::vector<Frame> frames = decode(decoder, stream);
-        ASSERT_TRUE(holds(frames, 101) && holds(frames, 102)) << "kind " << kind << ", without " << from << "+" << count;
+        ASSERT_TRUE(holds(frames, 101) && holds(frames, 102))
+            << "kind " << kind << ", without " << from << "+" << count;
       }
     }
   }
