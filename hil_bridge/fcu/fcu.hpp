@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "hil_bridge/rosflight/messages.hpp"
@@ -14,6 +16,8 @@ using Time = std::chrono::nanoseconds;
 struct Arrival {
   Time when{};
   rosflight::Message message;
+  std::optional<std::uint8_t>
+      odd_system{};  ///< the system number it carries on a line, where that is not the unit's
 };
 
 /// A flight-control unit, real or virtual, seen from the companion computer.

@@ -8,7 +8,8 @@
 
 namespace ironbird::hil_bridge {
 
-/// A line that cannot be opened, or not be used: what, where, and what to do. Ends a program with exit code 3.
+/// A line that cannot be opened, or not be used: what, where, and what to do. Ends a program with exit
+/// code 3.
 class LinkError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -18,20 +18,24 @@ constexpr std::size_t kGreatestNoise = 16;
 
 void check_probability(const char* key, double value, double least) {
   if (value >= least && value <= 1.0) return;
-  throw std::invalid_argument(std::string("link_fault.") + key + " = " + std::to_string(value) + ", must be within " +
-                              (least > 0.0 ? "1e-6..1" : "0..1"));
+  throw std::invalid_argument(std::string("link_fault.") + key + " = " + std::to_string(value) +
+                              ", must be within " + (least > 0.0 ? "1e-6..1" : "0..1"));
 }
 
 DirectionFaults checked(const DirectionFaults& faults) {
-  for (const auto& [key, value] : {std::pair{"drop", faults.drop}, {"burst_start", faults.burst_start},
-                                   {"corrupt", faults.corrupt}, {"insert", faults.insert},
-                                   {"duplicate", faults.duplicate}, {"reorder", faults.reorder},
-                                   {"stall", faults.stall}, {"hang_up", faults.hang_up}}) {
+  for (const auto& [key, value] : {std::pair{"drop", faults.drop},
+                                   {"burst_start", faults.burst_start},
+                                   {"corrupt", faults.corrupt},
+                                   {"insert", faults.insert},
+                                   {"duplicate", faults.duplicate},
+                                   {"reorder", faults.reorder},
+                                   {"stall", faults.stall},
+                                   {"hang_up", faults.hang_up}}) {
     check_probability(key, value, 0.0);
   }
   check_probability("burst_end", faults.burst_end, 1e-6);
-  for (const auto& [key, value] : {std::pair{"stall_time", faults.stall_time}, {"latency", faults.latency},
-                                   {"jitter", faults.jitter}}) {
+  for (const auto& [key, value] :
+       {std::pair{"stall_time", faults.stall_time}, {"latency", faults.latency}, {"jitter", faults.jitter}}) {
     if (value < nanoseconds::zero()) {
       throw std::invalid_argument(std::string("link_fault.") + key + " = " + std::to_string(value.count()) +
                                   " ns, must be >= 0");
@@ -116,7 +120,8 @@ void FaultyDirection::deliver(std::vector<std::uint8_t> bytes, nanoseconds now) 
     line_free_ += nanoseconds(
         static_cast<std::int64_t>(static_cast<double>(bytes.size()) / faults_.byte_rate * kNanoseconds));
   }
-  const auto jitter = static_cast<std::int64_t>(delay_.uniform() * static_cast<double>(faults_.jitter.count()));
+  const auto jitter =
+      static_cast<std::int64_t>(delay_.uniform() * static_cast<double>(faults_.jitter.count()));
   nanoseconds when = line_free_ + faults_.latency + nanoseconds(jitter);
   // Pieces keep their order: jitter moves them, it does not let them pass.
   if (!under_way_.empty()) when = std::max(when, under_way_.back().when);
@@ -137,7 +142,9 @@ void FaultyDirection::clear() {
 }
 
 LinkFault::LinkFault(ByteStream& line, const LinkFaultConfig& config, std::uint64_t seed)
-    : line_(line), outgoing_(config.outgoing, seed, "outgoing"), incoming_(config.incoming, seed, "incoming") {}
+    : line_(line),
+      outgoing_(config.outgoing, seed, "outgoing"),
+      incoming_(config.incoming, seed, "incoming") {}
 
 void LinkFault::advance(nanoseconds now) {
   now_ = now;

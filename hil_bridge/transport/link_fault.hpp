@@ -31,18 +31,21 @@ struct DirectionFaults {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("drop", self.drop, "1", "probability that a piece is lost", 0.0, 1.0);
-    visit("burst_start", self.burst_start, "1", "probability that a burst of losses begins with a piece", 0.0, 1.0);
-    visit("burst_end", self.burst_end, "1", "probability that it ends with a piece; 1/it is its mean length", 1e-6,
+    visit("burst_start", self.burst_start, "1", "probability that a burst of losses begins with a piece", 0.0,
           1.0);
+    visit("burst_end", self.burst_end, "1", "probability that it ends with a piece; 1/it is its mean length",
+          1e-6, 1.0);
     visit("corrupt", self.corrupt, "1", "probability that a byte has a false bit", 0.0, 1.0);
-    visit("insert", self.insert, "1", "probability that 1 to 16 bytes of noise come before a piece", 0.0, 1.0);
+    visit("insert", self.insert, "1", "probability that 1 to 16 bytes of noise come before a piece", 0.0,
+          1.0);
     visit("duplicate", self.duplicate, "1", "probability that a piece comes twice", 0.0, 1.0);
     visit("reorder", self.reorder, "1", "probability that a piece comes after the one behind it", 0.0, 1.0);
     visit("stall", self.stall, "1", "probability that the line stands still with a piece", 0.0, 1.0);
     visit("stall_time", self.stall_time, "ns", "how long it stands", 0.0, 1e11);
     visit("latency", self.latency, "ns", "least delay of a piece", 0.0, 1e10);
     visit("jitter", self.jitter, "ns", "greatest delay on top, any as likely as another", 0.0, 1e10);
-    visit("byte_rate", self.byte_rate, "byte/s", "what the line carries, a tenth of the baud rate; 0: any", 0.0, 1e9);
+    visit("byte_rate", self.byte_rate, "byte/s", "what the line carries, a tenth of the baud rate; 0: any",
+          0.0, 1e9);
     visit("hang_up", self.hang_up, "1", "probability that the line is cut with a piece", 0.0, 1.0);
   }
 };
@@ -83,8 +86,8 @@ struct FaultCounts {
   }
 };
 
-/// One direction of a faulty line: pieces go in, what is left of them comes out when it is due. Pure; every kind of
-/// fault draws from its own stream of random numbers, so that one does not move another.
+/// One direction of a faulty line: pieces go in, what is left of them comes out when it is due. Pure; every
+/// kind of fault draws from its own stream of random numbers, so that one does not move another.
 class FaultyDirection {
  public:
   /// @param name  of the direction, in the names of its streams
@@ -128,8 +131,8 @@ class FaultyDirection {
   FaultCounts counts_;
 };
 
-/// A line that loses, delays, spoils and cuts, around any other. Time is told to it, so that a run in simulated time
-/// has the same faults every time.
+/// A line that loses, delays, spoils and cuts, around any other. Time is told to it, so that a run in
+/// simulated time has the same faults every time.
 class LinkFault final : public ByteStream {
  public:
   /// @param line  outlives this

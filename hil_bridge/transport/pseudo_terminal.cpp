@@ -29,7 +29,8 @@ std::string make_link(const std::string& link, const std::string& device) {
   }
   fs::remove(link, error);
   fs::create_symlink(device, link, error);
-  return error ? link + ": " + error.message() + "; name a path in a folder that exists and may be written to" : "";
+  return error ? link + ": " + error.message() + "; name a path in a folder that exists and may be written to"
+               : "";
 }
 
 }  // namespace

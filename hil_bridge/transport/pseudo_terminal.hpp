@@ -7,8 +7,8 @@
 
 namespace ironbird::hil_bridge {
 
-/// The unit's end of a serial line that exists in this machine only: the other end is a device that any program
-/// may open as a serial port.
+/// The unit's end of a serial line that exists in this machine only: the other end is a device that any
+/// program may open as a serial port.
 class PseudoTerminal final : public ByteStream {
  public:
   /// @param link  where a symbolic link to the device is made, or empty; a link that is there is replaced,

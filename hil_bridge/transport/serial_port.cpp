@@ -75,8 +75,9 @@ std::string why_not(const std::string& path, int error) {
       return path + ": there is no such port; " + listed(serial_ports());
     case EACCES:
     case EPERM:
-      return path + ": no permission; add yourself to the group of the device, usually `sudo usermod -aG dialout "
-                    "$USER`, and log in again";
+      return path +
+             ": no permission; add yourself to the group of the device, usually `sudo usermod -aG dialout "
+             "$USER`, and log in again";
     case EBUSY:
       return taken(path);
     default:
@@ -105,7 +106,8 @@ SerialPort::SerialPort(const SerialPortConfig& config) : config_(config) {
   constexpr int kLeast = 300;
   constexpr int kMost = 4'000'000;
   if (config.baud < kLeast || config.baud > kMost) {
-    throw std::invalid_argument("fcu.baud = " + std::to_string(config.baud) + " Bd, must be within 300..4000000 Bd");
+    throw std::invalid_argument("fcu.baud = " + std::to_string(config.baud) +
+                                " Bd, must be within 300..4000000 Bd");
   }
 }
 
@@ -127,8 +129,8 @@ std::string SerialPort::try_open() {
 std::string SerialPort::try_open(const std::string& path) {
   FileDescriptor file(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!file) return why_not(path, errno);
-  // The lock is for programs that ask for it, the exclusive mode for those that do not; root passes the latter. On a
-  // pseudo-terminal that mode would outlive a killed program.
+  // The lock is for programs that ask for it, the exclusive mode for those that do not; root passes the
+  // latter. On a pseudo-terminal that mode would outlive a killed program.
   if (flock(file.number(), LOCK_EX | LOCK_NB) != 0) return taken(path);
   if (const std::string problem = set_raw(file.number(), config_.baud); !problem.empty()) {
     return path + ": " + problem;

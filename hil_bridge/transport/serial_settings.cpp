@@ -1,6 +1,7 @@
 #include "hil_bridge/transport/serial_settings.hpp"
 
-// The kernel's own header knows any rate (termios2); the C library's does not, and the two do not go together.
+// The kernel's own header knows any rate (termios2); the C library's does not, and the two do not go
+// together.
 #include <asm/termbits.h>
 #include <linux/serial.h>
 #include <sys/ioctl.h>

@@ -10,8 +10,8 @@
 
 namespace ironbird::hil_bridge {
 
-/// Two ends of a line inside one program: what goes in at one end comes out at the other, at once. For tests and for
-/// runs that want bytes without a kernel in between.
+/// Two ends of a line inside one program: what goes in at one end comes out at the other, at once. For tests
+/// and for runs that want bytes without a kernel in between.
 class StreamPair {
  public:
   /// @param room  bytes that each direction holds before it takes no more

@@ -30,7 +30,8 @@ std::string UdpSocket::try_open() {
   here.sin_addr.s_addr = htonl(INADDR_ANY);
   if (bind(file.number(), reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0) {
     return "UDP port " + std::to_string(config_.local_port) + ": " +
-           (errno == EADDRINUSE ? "another program uses it; end that, or name another port" : std::strerror(errno));
+           (errno == EADDRINUSE ? "another program uses it; end that, or name another port"
+                                : std::strerror(errno));
   }
   addrinfo hints{};
   hints.ai_family = AF_INET;
@@ -62,7 +63,8 @@ std::size_t UdpSocket::write(std::span<const std::uint8_t> from) {
 }
 
 std::string UdpSocket::name() const {
-  return "UDP " + std::to_string(config_.local_port) + " to " + config_.host + ":" + std::to_string(config_.port);
+  return "UDP " + std::to_string(config_.local_port) + " to " + config_.host + ":" +
+         std::to_string(config_.port);
 }
 
 }  // namespace ironbird::hil_bridge

@@ -8,7 +8,8 @@
 
 namespace ironbird::hil_bridge {
 
-/// Which two ports. The usual ones: the unit binds 14525 and sends to 14520, the companion the other way round.
+/// Which two ports. The usual ones: the unit binds 14525 and sends to 14520, the companion the other way
+/// round.
 struct UdpConfig {
   int local_port = 14520;
   std::string host = "localhost";
@@ -22,8 +23,9 @@ struct UdpConfig {
   }
 };
 
-/// A line of datagrams, IPv4. Each write is one datagram; a read takes one, and what of it does not fit is lost, so
-/// read with room for 64 KiB. It is up as long as this side has its port, whether or not somebody listens.
+/// A line of datagrams, IPv4. Each write is one datagram; a read takes one, and what of it does not fit is
+/// lost, so read with room for 64 KiB. It is up as long as this side has its port, whether or not somebody
+/// listens.
 class UdpSocket final : public ByteStream {
  public:
   explicit UdpSocket(const UdpConfig& config) : config_(config) {}

@@ -38,7 +38,10 @@ void Telemetry::write(Severity severity, std::string_view text) {
 void Telemetry::release_text() {
   if (!connected_ || held_count_ == 0) return;
   const HeldText& held = held_[static_cast<std::size_t>(oldest_held_)];
-  send(rosflight::Statustext{.severity = static_cast<std::uint8_t>(held.severity), .text = held.text});
+  const rosflight::Statustext message{.severity = static_cast<std::uint8_t>(held.severity),
+                                      .text = held.text};
+  // On the wire texts held back carry the low byte of the clock where the system number belongs.
+  if (sent_ != nullptr) sent_->push_back({arrival_, message, static_cast<std::uint8_t>(clock_us_)});
   oldest_held_ = (oldest_held_ + 1) % kHeldTexts;
   --held_count_;
 }

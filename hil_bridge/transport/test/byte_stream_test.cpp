@@ -147,7 +147,8 @@ TEST_P(ByteStreamTest, TellsPollThatBytesAreThere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lines, ByteStreamTest,
-                         testing::Values(std::pair{"pair", &make<PairEnds>}, std::pair{"serial", &make<TerminalEnds>},
+                         testing::Values(std::pair{"pair", &make<PairEnds>},
+                                         std::pair{"serial", &make<TerminalEnds>},
                                          std::pair{"udp", &make<DatagramEnds>}),
                          [](const auto& line) { return std::string(line.param.first); });
 
@@ -268,7 +269,8 @@ TEST(UdpSocketTest, SaysWhoseThePortIs) {
     two.open();
     FAIL();
   } catch (const LinkError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("UDP port " + std::to_string(own_port(0)) + ": another program uses it"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("UDP port " + std::to_string(own_port(0)) + ": another program uses it"));
   }
 }
 

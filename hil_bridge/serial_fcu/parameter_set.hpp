@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hil_bridge/rosflight/parameter_messages.hpp"
+
+namespace ironbird::hil_bridge {
+
+/// One parameter as its 32 bits and what they mean. The bits are never computed with: those of an integer may be a
+/// NaN's.
+struct ParameterRecord {
+  std::string name;
+  std::uint8_t type = 0;
+  std::uint32_t bits = 0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("name", self.name, "", "up to 16 letters");
+    visit("type", self.type, "1", "6 int32, 9 float32");
+    visit("bits", self.bits, "1", "bits of the value");
+  }
+
+  bool operator==(const ParameterRecord&) const = default;
+};
+
+inline constexpr std::uint8_t kIntegerParameter = 6;
+inline constexpr std::uint8_t kRealParameter = 9;
+
+/// The name in a message as text, and the other way round.
+std::string parameter_name(const std::array<char, 16>& field);
+std::array<char, 16> parameter_field(std::string_view name);
+
+/// The value as text that reads back to the same bits: "4", "0.075", "nan(0x7fa12345)".
+std::string value_text(const ParameterRecord& record);
+/// The bits of a value written as text, or none when `text` is not a value of that type.
+std::optional<std::uint32_t> value_bits(std::uint8_t type, std::string_view text);
+
+/// Where two sets differ.
+struct ParameterDifference {
+  std::string name;
+  std::optional<ParameterRecord> one;
+  std::optional<ParameterRecord> other;
+};
+
+/// By name, in the order of `one`, then what only `other` has. Values are equal when type and bits are.
+std::vector<ParameterDifference> differences(const std::vector<ParameterRecord>& one,
+                                             const std::vector<ParameterRecord>& other);
+
+}  // namespace ironbird::hil_bridge

@@ -1,0 +1,105 @@
+#include "hil_bridge/serial_fcu/connection.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hil_bridge/serial_fcu/test/served_unit.hpp"
+
+namespace ironbird::hil_bridge {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using test::DeskLink;
+
+void ignore(const rosflight::Message&) {}
+
+rosflight::RosflightVersion version(std::string_view text) {
+  rosflight::RosflightVersion message;
+  std::copy(text.begin(), text.end(), message.version.begin());
+  return message;
+}
+
+TEST(ConnectionTest, IsReadyWhenVersionAndParametersAreKnown) {
+  DeskLink link;
+  EXPECT_EQ(link.fcu().connection().state(), ConnectionState::kSilent);
+  link.until(seconds(2), [&] { return link.fcu().connection().state() == ConnectionState::kReady; });
+  const Connection& connection = link.fcu().connection();
+  EXPECT_EQ(connection.state(), ConnectionState::kReady);
+  EXPECT_EQ(connection.version(), "v2.0.1-ironbird");
+  EXPECT_TRUE(connection.imu_alive(link.now()));
+  EXPECT_TRUE(connection.radio_alive(link.now()));
+  link.until(seconds(1), [] { return false; });
+  EXPECT_TRUE(connection.heartbeat_alive(link.now()));
+}
+
+TEST(ConnectionTest, RefusesAUnitWithAnotherNumberOfParameters) {
+  Connection connection;
+  connection.begin(Time{});
+  connection.take(version("v2.0.0-beta"), milliseconds(1));
+  connection.take(rosflight::ParamValue{{1}, 251, 0, parameter_field("A"), 6}, milliseconds(2));
+  EXPECT_EQ(connection.state(), ConnectionState::kRefused);
+  EXPECT_EQ(connection.refusal(),
+            "the unit has 251 parameters, ROSflight 2.0 has 333; it calls itself v2.0.0-beta; flash a firmware of "
+            "version 2.0");
+}
+
+TEST(ConnectionTest, FallsSilentWhenNothingMoreComes) {
+  Connection connection;
+  connection.begin(Time{});
+  connection.take(rosflight::SmallImu{.time_boot_us = 1000}, milliseconds(1));
+  EXPECT_EQ(connection.state(), ConnectionState::kHeard);
+  EXPECT_TRUE(connection.imu_alive(milliseconds(51)));
+  EXPECT_FALSE(connection.imu_alive(milliseconds(52)));
+  connection.advance(seconds(3), ignore);
+  EXPECT_EQ(connection.state(), ConnectionState::kHeard);
+  connection.advance(seconds(4), ignore);
+  EXPECT_EQ(connection.state(), ConnectionState::kSilent);
+}
+
+TEST(ConnectionTest, FindsEverythingOutAnewWhenTheUnitHasBooted) {
+  Connection connection({.download = false});
+  connection.begin(Time{});
+  connection.take(rosflight::SmallImu{.time_boot_us = 90'000'000}, milliseconds(1));
+  connection.take(version("v2.0.1"), milliseconds(2));
+  EXPECT_EQ(connection.state(), ConnectionState::kReady);
+  connection.take(rosflight::SmallImu{.time_boot_us = 89'990'000}, milliseconds(3));
+  EXPECT_EQ(connection.reboots(), 0) << "a stamp out of order is no boot";
+  connection.take(rosflight::SmallImu{.time_boot_us = 2500}, milliseconds(4));
+  EXPECT_EQ(connection.reboots(), 1);
+  EXPECT_EQ(connection.state(), ConnectionState::kHeard);
+  EXPECT_EQ(connection.version(), "");
+}
+
+TEST(ConnectionTest, DoesNotAskForTheVersionOfAnArmedUnit) {
+  Connection connection({.download = false});
+  connection.begin(Time{});
+  connection.take(rosflight::RosflightStatus{.armed = 1}, milliseconds(1));
+  int asked = 0;
+  for (int k = 0; k < 5000; ++k) {
+    connection.advance(milliseconds(k), [&](const rosflight::Message& message) {
+      asked += std::holds_alternative<rosflight::RosflightCmd>(message) ? 1 : 0;
+    });
+  }
+  EXPECT_EQ(asked, 0);
+}
+
+TEST(ConnectionTest, SendsHeartbeatsAndTimeExchangesAtTheirRates) {
+  Connection connection({.download = false});
+  connection.begin(Time{});
+  int heartbeats = 0;
+  int exchanges = 0;
+  for (int k = 0; k < 10'000; ++k) {
+    connection.advance(milliseconds(k), [&](const rosflight::Message& message) {
+      heartbeats += std::holds_alternative<rosflight::Heartbeat>(message) ? 1 : 0;
+      exchanges += std::holds_alternative<rosflight::Timesync>(message) ? 1 : 0;
+    });
+  }
+  EXPECT_EQ(heartbeats, 10);
+  EXPECT_EQ(exchanges, 100);
+}
+
+}  // namespace
+}  // namespace ironbird::hil_bridge

@@ -1,0 +1,140 @@
+#include "hil_bridge/serial_fcu/serial_fcu.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <random>
+#include <thread>
+
+#include "hil_bridge/serial_fcu/test/served_unit.hpp"
+#include "hil_bridge/transport/pseudo_terminal.hpp"
+#include "hil_bridge/transport/serial_port.hpp"
+
+namespace ironbird::hil_bridge {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using test::DeskLink;
+using test::DeskUnit;
+
+TEST(SerialFcuTest, TurnsTheStampsOfTheUnitIntoBenchTime) {
+  DeskLink link;
+  link.until(seconds(3), [] { return false; });
+  Time stamp{};
+  link.until(seconds(1), [&] {
+    for (const Arrival& arrival : link.inbox()) {
+      if (const auto* imu = std::get_if<rosflight::SmallImu>(&arrival.message)) {
+        stamp = microseconds(static_cast<std::int64_t>(imu->time_boot_us));
+      }
+    }
+    return stamp != Time{};
+  });
+  // The two ends of this line share one clock; the exchange cannot know which way took a tick.
+  EXPECT_NEAR(static_cast<double>((link.now() - stamp).count()), 2.5e6, 2.6e6);
+}
+
+TEST(SerialFcuTest, KnowsHowMuchTheLineLoses) {
+  DeskLink link(0.2);
+  link.until(seconds(10), [] { return false; });
+  const LinkHealth health = link.fcu().health(link.now());
+  EXPECT_NEAR(health.loss, 0.2, 0.04);
+  EXPECT_NEAR(health.frame_rate, 0.8 * (400.0 * 2.0 + 50.0 + 100.0 + 10.0 + 10.0 + 1.0), 60.0);
+  EXPECT_EQ(health.corrupted, 0U);
+  EXPECT_LT(health.age, milliseconds(20));
+}
+
+TEST(SerialFcuTest, DropsWholeFramesWhenTheLineTakesNoMore) {
+  StreamPair pair(100);
+  SerialFcu fcu(pair.near(), {.synchronise = false, .download = false});
+  fcu.advance(Time{});
+  for (int k = 0; k < 1000; ++k) fcu.send(rosflight::OffboardControl{.u = {static_cast<float>(k)}});
+  EXPECT_GT(fcu.health(Time{}).unsent, 700U);
+  rosflight::StreamDecoder decoder;
+  std::vector<rosflight::Frame> frames;
+  for (int k = 0; k < 1000; ++k) {
+    std::array<std::uint8_t, 100> bytes{};
+    const std::size_t count = pair.far().read(bytes);
+    decoder.push(std::span(bytes).first(count), [&](const rosflight::Frame& frame) { frames.push_back(frame); });
+    fcu.flush();
+  }
+  EXPECT_EQ(decoder.counts().skipped_bytes, 0U);
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    EXPECT_EQ(frames[k].sequence, static_cast<std::uint8_t>(frames[k - 1].sequence + 1));
+  }
+}
+
+TEST(SerialFcuTest, AsksToWriteToFlashAsTheUsualCompanionDoes) {
+  StreamPair pair;
+  SerialFcu fcu(pair.near(), {.synchronise = false, .download = false});
+  fcu.advance(Time{});
+  fcu.send(rosflight::RosflightCmd{.command = 6});
+  rosflight::StreamDecoder decoder;
+  std::array<std::uint8_t, 4096> bytes{};
+  const std::size_t count = pair.far().read(bytes);
+  int component = -1;
+  decoder.push(std::span(bytes).first(count), [&](const rosflight::Frame& frame) {
+    const auto* order = std::get_if<rosflight::RosflightCmd>(&frame.message);
+    if (order != nullptr && order->command == 6) component = frame.sender.component;
+  });
+  EXPECT_EQ(component, 1);
+}
+
+TEST(SerialFcuTest, StartsWithoutALineAndIsReadyWhenItComes) {
+  DeskLink link;
+  link.pair().hang_up();
+  // Both ends of a pair come up when they are tried again: nobody tries the far one.
+  link.until(milliseconds(500), [] { return false; });
+  EXPECT_EQ(link.fcu().connection().state(), ConnectionState::kSilent);
+  link.pair().far().reopen();
+  link.until(seconds(2), [&] { return link.fcu().connection().state() == ConnectionState::kReady; });
+  EXPECT_EQ(link.fcu().connection().state(), ConnectionState::kReady);
+}
+
+std::ptrdiff_t open_files() {
+  const std::filesystem::directory_iterator files("/proc/self/fd");
+  return std::distance(begin(files), end(files));
+}
+
+TEST(SerialFcuTest, SurvivesAThousandHangUpsAtAnyByte) {
+  const std::string path = testing::TempDir() + "ironbird_hang_ups";
+  PseudoTerminal terminal(path);
+  SerialPort port({path, 921600});
+  SerialFcu fcu(port);
+  std::mt19937 random(8);
+  Time now{};
+  const auto tick = [&] { fcu.advance(now += microseconds(2500)); };
+  std::ptrdiff_t files = 0;
+  for (int run = 0; run < 1000; ++run) {
+    // GIVEN a frame of which some bytes have arrived
+    const auto frame = rosflight::encode_frame(rosflight::SmallImu{.time_boot_us = 1}, 0, {1, 250});
+    tick();
+    terminal.write(std::span(frame.bytes).first(random() % (frame.size + 1)));
+    if (random() % 2U == 0U) tick();
+    // WHEN the plug is pulled, put in again, and the unit goes on
+    terminal.hang_up();
+    tick();
+    ASSERT_TRUE(terminal.reopen());
+    const Time back = now;
+    std::vector<Arrival> heard;
+    fcu.receive(heard);
+    heard.clear();
+    while (heard.empty() && now - back < milliseconds(200)) {
+      terminal.write(std::span(frame.bytes).first(frame.size));
+      std::this_thread::sleep_for(microseconds(20));
+      tick();
+      fcu.receive(heard);
+    }
+    // THEN the first frame is there within a tenth of a second, and no file is left open
+    ASSERT_FALSE(heard.empty()) << "run " << run;
+    ASSERT_LE(now - back, milliseconds(100)) << "run " << run;
+    if (run == 0) files = open_files();
+    ASSERT_EQ(open_files(), files) << "run " << run;
+  }
+}
+
+}  // namespace
+}  // namespace ironbird::hil_bridge

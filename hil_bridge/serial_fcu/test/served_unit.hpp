@@ -1,0 +1,94 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "hil_bridge/serial_fcu/serial_fcu.hpp"
+#include "hil_bridge/transport/link_fault.hpp"
+#include "hil_bridge/transport/stream_pair.hpp"
+#include "hil_bridge/virtual_fcu/firmware_host.hpp"
+#include "hil_bridge/virtual_fcu/served_fcu.hpp"
+
+// A unit that lies still on the desk, served over a line with faults in both directions, in simulated time.
+
+namespace ironbird::hil_bridge::test {
+
+/// The firmware on a board that does not move.
+class DeskUnit final : public Fcu {
+ public:
+  explicit DeskUnit(const VirtualFcuConfig& config = {}) : host_(config) {}
+  void advance(Time now) override {
+    simulator::Readings readings;
+    readings.imu = simulator::ImuReading{};
+    readings.imu->taken = now;
+    readings.imu->f_B = {0.0, 0.0, -9.80665};
+    host_.tick(readings, now);
+  }
+  void receive(std::vector<Arrival>& out) override { host_.receive(out); }
+  void send(const rosflight::Message& message) override { host_.send(message); }
+  FirmwareHost& host() { return host_; }
+
+ private:
+  FirmwareHost host_;
+};
+
+/// Loses this share of the frames of each direction, on a line of 921600 Bd.
+inline LinkFaultConfig losing(double share) {
+  constexpr double kByteRate = 92160.0;
+  DirectionFaults faults;
+  faults.drop = share;
+  faults.byte_rate = kByteRate;
+  return {faults, {}};
+}
+
+/// Both ends, ticking together.
+class DeskLink {
+ public:
+  static constexpr Time kTick = std::chrono::microseconds(2500);
+
+  explicit DeskLink(double loss = 0.0, std::uint64_t seed = 1, const ConnectionConfig& connection = {})
+      : there_(pair_.far(), losing(loss), seed),
+        here_(pair_.near(), losing(loss), seed + 1000),
+        served_(unit_, there_),
+        fcu_(here_, connection) {}
+
+  void tick() {
+    now_ += kTick;
+    there_.advance(now_);
+    here_.advance(now_);
+    fcu_.advance(now_);
+    inbox_.clear();
+    fcu_.receive(inbox_);
+    here_.advance(now_);
+    there_.advance(now_);
+    served_.take();
+    unit_.advance(now_);
+    served_.give();
+  }
+  /// Ticks until `holds`. @return the time it took, or the limit
+  template <class Holds>
+  Time until(Time limit, Holds&& holds) {
+    const Time began = now_;
+    while (now_ - began < limit && !holds()) tick();
+    return now_ - began;
+  }
+
+  Time now() const { return now_; }
+  DeskUnit& unit() { return unit_; }
+  SerialFcu& fcu() { return fcu_; }
+  StreamPair& pair() { return pair_; }
+  const std::vector<Arrival>& inbox() const { return inbox_; }
+  const virtual_fcu::Firmware& firmware() { return unit_.host().firmware(); }
+
+ private:
+  Time now_{};
+  StreamPair pair_;
+  DeskUnit unit_;
+  LinkFault there_;
+  LinkFault here_;
+  ServedFcu served_;
+  SerialFcu fcu_;
+  std::vector<Arrival> inbox_;
+};
+
+}  // namespace ironbird::hil_bridge::test

@@ -1,0 +1,102 @@
+#include "hil_bridge/serial_fcu/time_sync.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ironbird::hil_bridge {
+
+namespace {
+
+using std::chrono::microseconds;
+
+constexpr Time kSlowerThanLeast = microseconds(500);  // of a round trip, still believed
+constexpr Time kCatchUp = std::chrono::seconds(1);    // in which the line used reaches the fitted one
+constexpr Time kShortestSpan = std::chrono::seconds(2);  // of samples that tell a drift
+constexpr double kGreatestDrift = 5e-4;  // s/s; crystals are better than 1e-4
+
+double seconds(Time time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+Time from_seconds(double value) {
+  return Time(static_cast<std::int64_t>(std::llround(value * 1e9)));
+}
+
+}  // namespace
+
+void TimeSync::exchange(Time sent, Time fcu, Time arrived) {
+  const Time round_trip = arrived - sent;
+  if (round_trip < Time::zero()) return;
+  samples_[next_] = {fcu, sent + round_trip / 2 - fcu, round_trip};
+  next_ = (next_ + 1) % kRemembered;
+  count_ = std::min(count_ + 1, kRemembered);
+  state_.round_trip = round_trip;
+  Time least = round_trip;
+  for (std::size_t k = 0; k < count_; ++k) least = std::min(least, samples_[k].round_trip);
+  state_.least_round_trip = least;
+  if (round_trip > least + kSlowerThanLeast) {
+    ++state_.ignored;
+    return;
+  }
+  ++state_.used;
+  if (!state_.valid) {
+    state_.valid = true;
+    anchor_ = fcu;
+    anchor_offset_ = sent + round_trip / 2 - fcu;
+  }
+  fit(fcu);
+}
+
+void TimeSync::fit(Time fcu) {
+  const Time reference = fcu;
+  double n = 0.0;
+  double sum_t = 0.0;
+  double sum_o = 0.0;
+  double sum_tt = 0.0;
+  double sum_to = 0.0;
+  double earliest = 0.0;
+  for (std::size_t k = 0; k < count_; ++k) {
+    if (samples_[k].round_trip > state_.least_round_trip + kSlowerThanLeast) continue;
+    const double t = seconds(samples_[k].fcu - reference);
+    const double offset = seconds(samples_[k].offset - anchor_offset_);
+    n += 1.0;
+    sum_t += t;
+    sum_o += offset;
+    sum_tt += t * t;
+    sum_to += t * offset;
+    earliest = std::min(earliest, t);
+  }
+  const double spread = n * sum_tt - sum_t * sum_t;
+  const bool tells_drift = -earliest >= seconds(kShortestSpan) && spread > 0.0;
+  const double drift =
+      tells_drift ? std::clamp((n * sum_to - sum_t * sum_o) / spread, -kGreatestDrift, kGreatestDrift) : 0.0;
+  const Time fitted = anchor_offset_ + from_seconds((sum_o - drift * sum_t) / n);
+  const Time present = present_offset(fcu);
+  anchor_ = fcu;
+  anchor_offset_ = present;
+  rate_ = std::clamp(drift + seconds(fitted - present) / seconds(kCatchUp), -kGreatestSlew, kGreatestSlew);
+  state_.drift = drift;
+  state_.offset = present;
+}
+
+Time TimeSync::present_offset(Time fcu) const {
+  return anchor_offset_ + from_seconds(rate_ * seconds(fcu - anchor_));
+}
+
+Time TimeSync::to_bench(Time fcu, Time fallback) {
+  if (!state_.valid) return fallback;
+  Time bench = fcu + present_offset(fcu);
+  // A stamp from before the last exchange sees the new line's slope; it must not fall behind one given before.
+  if (fcu >= latest_fcu_) {
+    bench = std::max(bench, latest_bench_);
+    latest_fcu_ = fcu;
+    latest_bench_ = bench;
+  }
+  return bench;
+}
+
+void TimeSync::reset() {
+  *this = TimeSync();
+}
+
+}  // namespace ironbird::hil_bridge
