@@ -12,7 +12,8 @@ constexpr Time kHeartbeatPeriod = std::chrono::seconds(1);
 constexpr Time kVersionPeriod = milliseconds(500);
 constexpr Time kExchangePeriod = milliseconds(100);
 constexpr Time kGone = std::chrono::seconds(3);
-// The clock of a unit that has booted starts at zero; one that merely sends two streams out of order steps back by less.
+// The clock of a unit that has booted starts at zero; one that merely sends two streams out of order steps
+// back by less.
 constexpr Time kBootStep = milliseconds(500);
 constexpr std::uint8_t kDialectVersion = 2;
 constexpr std::uint8_t kSendVersion = 10;
@@ -106,7 +107,8 @@ void Connection::judge() {
 }
 
 void Connection::advance(Time now, const Send& send) {
-  if (frame_ && now - *frame_ > kGone && state_ != ConnectionState::kRefused) state_ = ConnectionState::kSilent;
+  if (frame_ && now - *frame_ > kGone && state_ != ConnectionState::kRefused)
+    state_ = ConnectionState::kSilent;
   if (heartbeat_due_ == Time::min() || now >= heartbeat_due_) {
     heartbeat_due_ = now + kHeartbeatPeriod;
     send(rosflight::Heartbeat{.mavlink_version = kDialectVersion});

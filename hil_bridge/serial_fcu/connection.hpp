@@ -39,8 +39,8 @@ struct ConnectionConfig {
 
 /// The talk beside the flying: who is there, is it alive, which parameters has it, what time is it there.
 ///
-/// The protocol has no handshake and neither side notices that the other is gone (the streams simply stop), so both
-/// are made here: presence from what arrives, identity from version and number of parameters.
+/// The protocol has no handshake and neither side notices that the other is gone (the streams simply stop),
+/// so both are made here: presence from what arrives, identity from version and number of parameters.
 ///
 /// Pure: time comes in with the calls, messages go out through a function.
 class Connection {

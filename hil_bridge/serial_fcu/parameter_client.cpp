@@ -8,13 +8,14 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Time kListAgain = milliseconds(400);   // without any answer to a request for all
-constexpr Time kBurstOver = milliseconds(60);    // without a value: the burst has ended, what is missing was lost
-constexpr Time kReadAgain = milliseconds(60);    // without an answer to a request for one
-constexpr int kRequestsAtOnce = 8;               // every kBetweenRequests: half of a line of 921600 Bd, commands go on
+constexpr Time kListAgain = milliseconds(400);  // without any answer to a request for all
+constexpr Time kBurstOver =
+    milliseconds(60);  // without a value: the burst has ended, what is missing was lost
+constexpr Time kReadAgain = milliseconds(60);  // without an answer to a request for one
+constexpr int kRequestsAtOnce = 8;  // every kBetweenRequests: half of a line of 921600 Bd, commands go on
 constexpr Time kBetweenRequests = milliseconds(5);
-constexpr Time kSetAnswer = milliseconds(100);   // the FCU answers in its next pass
-constexpr int kSetTries = 40;                    // each reads back and sets again: 2^-40 is lost to a line that halves
+constexpr Time kSetAnswer = milliseconds(100);  // the FCU answers in its next pass
+constexpr int kSetTries = 40;  // each reads back and sets again: 2^-40 is lost to a line that halves
 constexpr std::size_t kSetsAtOnce = 8;
 constexpr Time kWriteAnswer = milliseconds(1000);
 constexpr int kWriteTries = 10;
@@ -34,7 +35,8 @@ void ParameterClient::start_download(Time now) {
 
 void ParameterClient::take(const rosflight::ParamValue& message, Time now) {
   const bool known_type = message.param_type == kIntegerParameter || message.param_type == kRealParameter;
-  if (message.param_index >= message.param_count || message.param_count > kMostParameters || !known_type) return;
+  if (message.param_index >= message.param_count || message.param_count > kMostParameters || !known_type)
+    return;
   last_value_ = now;
   if (slots_.size() != message.param_count) {
     slots_.assign(message.param_count, {});
@@ -66,8 +68,8 @@ std::string ParameterClient::set(const ParameterRecord& wanted) {
   });
   if (slot == slots_.end()) return wanted.name + ": the unit has no such parameter";
   if (slot->record->type != wanted.type) {
-    return wanted.name + ": is " + (slot->record->type == kIntegerParameter ? "a whole number" : "a real number") +
-           " in the unit";
+    return wanted.name + ": is " +
+           (slot->record->type == kIntegerParameter ? "a whole number" : "a real number") + " in the unit";
   }
   // The FCU does not answer a set to the value that it has.
   if (slot->record->bits == wanted.bits) return {};
@@ -127,7 +129,8 @@ void ParameterClient::advance_sets(Time now, const Send& send) {
       continue;
     }
     if (++set.tries > kSetTries) {
-      failures_.push_back({set.wanted, set.answered ? ParameterOutcome::kDifferent : ParameterOutcome::kNoAnswer});
+      failures_.push_back(
+          {set.wanted, set.answered ? ParameterOutcome::kDifferent : ParameterOutcome::kNoAnswer});
       sets_.erase(sets_.begin() + static_cast<std::ptrdiff_t>(k));
       return;
     }
@@ -141,7 +144,8 @@ void ParameterClient::advance_sets(Time now, const Send& send) {
 }
 
 void ParameterClient::settle(std::uint16_t index) {
-  const auto set = std::find_if(sets_.begin(), sets_.end(), [&](const Set& one) { return one.index == index; });
+  const auto set =
+      std::find_if(sets_.begin(), sets_.end(), [&](const Set& one) { return one.index == index; });
   if (set == sets_.end()) return;
   set->answered = true;
   if (slots_[index].record->bits == set->wanted.bits) sets_.erase(set);

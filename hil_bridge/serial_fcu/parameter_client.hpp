@@ -40,9 +40,10 @@ struct ParameterProgress {
 
 /// The FCU's parameters as known here, and the talk that keeps them the same on both sides.
 ///
-/// The protocol acknowledges nothing: a list may come with holes, a set gets an answer only if it changed something.
-/// So: what is missing is asked for again, index by index, until it is there; a set is followed by a reading-back
-/// until the FCU says the new value. Works over a line that loses half of everything in either direction.
+/// The protocol acknowledges nothing: a list may come with holes, a set gets an answer only if it changed
+/// something. So: what is missing is asked for again, index by index, until it is there; a set is followed by
+/// a reading-back until the FCU says the new value. Works over a line that loses half of everything in either
+/// direction.
 ///
 /// Pure: time comes in with the calls, messages go out through a function.
 class ParameterClient {

@@ -11,8 +11,8 @@
 
 namespace ironbird::hil_bridge {
 
-/// One parameter as its 32 bits and what they mean. The bits are never computed with: those of an integer may be a
-/// NaN's.
+/// One parameter as its 32 bits and what they mean. The bits are never computed with: those of an integer may
+/// be a NaN's.
 struct ParameterRecord {
   std::string name;
   std::uint8_t type = 0;

@@ -8,9 +8,21 @@ namespace ironbird::hil_bridge {
 namespace {
 
 constexpr Time kTryAgain = std::chrono::milliseconds(20);
-constexpr std::size_t kInboxRoom = 4096;     // messages: a second of a unit that sends as fast as its line goes
-constexpr std::size_t kOutgoingRoom = 8192;  // bytes: 90 ms of a line of 921600 Bd, less than commands stay valid
+constexpr std::size_t kInboxRoom = 4096;  // messages: a second of a unit that sends as fast as its line goes
+constexpr std::size_t kOutgoingRoom =
+    8192;  // bytes: 90 ms of a line of 921600 Bd, less than commands stay valid
 constexpr std::uint8_t kWriteToFlash = 6;
+
+/// Can this message neither turn a motor nor change the unit?
+bool only_asks(const rosflight::Message& message) {
+  constexpr std::uint8_t kSendVersion = 10;
+  const auto* order = std::get_if<rosflight::RosflightCmd>(&message);
+  return std::holds_alternative<rosflight::Heartbeat>(message) ||
+         std::holds_alternative<rosflight::Timesync>(message) ||
+         std::holds_alternative<rosflight::ParamRequestList>(message) ||
+         std::holds_alternative<rosflight::ParamRequestRead>(message) ||
+         (order != nullptr && order->command == kSendVersion);
+}
 
 bool writes_to_flash(const rosflight::Message& message) {
   const auto* order = std::get_if<rosflight::RosflightCmd>(&message);
@@ -19,12 +31,14 @@ bool writes_to_flash(const rosflight::Message& message) {
 
 }  // namespace
 
-SerialFcu::SerialFcu(ByteStream& line, const ConnectionConfig& config) : line_(line), connection_(config) {
+SerialFcu::SerialFcu(ByteStream& line, const ConnectionConfig& config, Gate* gate)
+    : line_(line), gate_(gate), connection_(config) {
   inbox_.reserve(kInboxRoom);
   outgoing_.reserve(kOutgoingRoom);
 }
 
 void SerialFcu::advance(Time now) {
+  now_ = now;
   watch_line(now);
   std::array<std::uint8_t, 4096> bytes{};
   while (const std::size_t count = line_.read(bytes)) {
@@ -81,6 +95,14 @@ void SerialFcu::receive(std::vector<Arrival>& out) {
 }
 
 void SerialFcu::send(const rosflight::Message& message) {
+  if (gate_ == nullptr) {
+    if (only_asks(message)) write(message);
+  } else if (const std::optional<rosflight::Message> passed = gate_->pass(message, now_)) {
+    write(*passed);
+  }
+}
+
+void SerialFcu::write(const rosflight::Message& message) {
   if (!line_.is_up()) return;
   const std::uint8_t component = writes_to_flash(message) ? kFlashComponent : kComponent;
   const rosflight::FrameBytes frame = rosflight::encode_frame(message, sequence_, {kSystem, component});

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hil_bridge/fcu/fcu.hpp"
+#include "hil_bridge/interlock/gate.hpp"
 #include "hil_bridge/rosflight/stream_decoder.hpp"
 #include "hil_bridge/serial_fcu/connection.hpp"
 #include "hil_bridge/serial_fcu/link_statistics.hpp"
@@ -12,19 +13,25 @@
 
 namespace ironbird::hil_bridge {
 
-/// A flight-control unit at the other end of a line: bytes to messages and back, and the talk beside the flying.
+/// A flight-control unit at the other end of a line: bytes to messages and back, and the talk beside the
+/// flying.
 ///
-/// The line may be down at the start and at any time after; it is tried again until it is up, and then everything is
-/// found out anew. Stamps of the unit are turned into bench time where the connection synchronises.
+/// The line may be down at the start and at any time after; it is tried again until it is up, and then
+/// everything is found out anew. Stamps of the unit are turned into bench time where the connection
+/// synchronises.
 class SerialFcu final : public Fcu {
  public:
   /// @param line  outlives this
-  explicit SerialFcu(ByteStream& line, const ConnectionConfig& config = {});
+  /// @param gate  is asked before anything leaves; outlives this. Without one no motor command leaves at all,
+  /// and
+  ///              nothing that changes the unit
+  explicit SerialFcu(ByteStream& line, const ConnectionConfig& config = {}, Gate* gate = nullptr);
 
   /// Takes what has arrived, sends what is due.
   void advance(Time now) override;
   void receive(std::vector<Arrival>& out) override;
-  /// Queues one message; it leaves at once if the line takes it. A full queue drops it and counts.
+  /// Queues one message, if the gate lets it pass; it leaves at once if the line takes it. A full queue drops
+  /// it and counts.
   void send(const rosflight::Message& message) override;
 
   /// Hands to the line what it would not take before. @return nothing is left
@@ -41,14 +48,19 @@ class SerialFcu final : public Fcu {
 
   static constexpr std::uint8_t kSystem = 1;
   static constexpr std::uint8_t kComponent = 50;
-  static constexpr std::uint8_t kFlashComponent = 1;  ///< of the order to write to flash, as the usual companion
+  static constexpr std::uint8_t kFlashComponent =
+      1;  ///< of the order to write to flash, as the usual companion
 
  private:
   void watch_line(Time now);
   void take(const rosflight::Frame& frame, Time now);
   rosflight::Message in_bench_time(const rosflight::Message& message, Time now);
 
+  void write(const rosflight::Message& message);
+
   ByteStream& line_;
+  Gate* gate_;
+  Time now_{};
   rosflight::StreamDecoder decoder_;
   Connection connection_;
   LinkStatistics statistics_;

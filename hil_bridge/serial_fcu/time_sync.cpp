@@ -9,10 +9,10 @@ namespace {
 
 using std::chrono::microseconds;
 
-constexpr Time kSlowerThanLeast = microseconds(500);  // of a round trip, still believed
-constexpr Time kCatchUp = std::chrono::seconds(1);    // in which the line used reaches the fitted one
+constexpr Time kSlowerThanLeast = microseconds(500);     // of a round trip, still believed
+constexpr Time kCatchUp = std::chrono::seconds(1);       // in which the line used reaches the fitted one
 constexpr Time kShortestSpan = std::chrono::seconds(2);  // of samples that tell a drift
-constexpr double kGreatestDrift = 5e-4;  // s/s; crystals are better than 1e-4
+constexpr double kGreatestDrift = 5e-4;                  // s/s; crystals are better than 1e-4
 
 double seconds(Time time) {
   return std::chrono::duration<double>(time).count();
@@ -86,7 +86,8 @@ Time TimeSync::present_offset(Time fcu) const {
 Time TimeSync::to_bench(Time fcu, Time fallback) {
   if (!state_.valid) return fallback;
   Time bench = fcu + present_offset(fcu);
-  // A stamp from before the last exchange sees the new line's slope; it must not fall behind one given before.
+  // A stamp from before the last exchange sees the new line's slope; it must not fall behind one given
+  // before.
   if (fcu >= latest_fcu_) {
     bench = std::max(bench, latest_bench_);
     latest_fcu_ = fcu;

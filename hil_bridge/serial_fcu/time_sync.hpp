@@ -32,13 +32,14 @@ struct TimeSyncState {
 
 /// Turns the FCU's microseconds into bench time, from exchanges of time stamps.
 ///
-/// An exchange says: between sending and the answer's arrival the FCU's clock showed so much. Half way between is
-/// the best guess, wrong by half the difference of the two ways; so exchanges that took much longer than the quickest
-/// one remembered are ignored. A straight line (offset and drift) is fitted to the rest. The line that is
-/// used moves towards the fitted one by at most `kGreatestSlew`, so that time never jumps and never runs backwards.
+/// An exchange says: between sending and the answer's arrival the FCU's clock showed so much. Half way
+/// between is the best guess, wrong by half the difference of the two ways; so exchanges that took much
+/// longer than the quickest one remembered are ignored. A straight line (offset and drift) is fitted to the
+/// rest. The line that is used moves towards the fitted one by at most `kGreatestSlew`, so that time never
+/// jumps and never runs backwards.
 ///
-/// Pure: time is an argument. The manner is that of NTP's clock filter (RFC 5905, section 10); the firmware's companion
-/// `rosflight_io` takes each exchange nearly whole and carries its jitter.
+/// Pure: time is an argument. The manner is that of NTP's clock filter (RFC 5905, section 10); the firmware's
+/// companion `rosflight_io` takes each exchange nearly whole and carries its jitter.
 class TimeSync {
  public:
   static constexpr double kGreatestSlew = 1e-3;  ///< s/s, ten times what two crystals differ by

@@ -42,9 +42,11 @@ void ServedFcu::give() {
   for (const Arrival& arrival : said_) {
     if (const auto* value = std::get_if<rosflight::ParamValue>(&arrival.message)) {
       const bool own_number = virtual_fcu::name_of(value->param_id) == std::string_view("SYS_ID");
-      if (own_number) system_ = static_cast<std::uint8_t>(std::bit_cast<std::int32_t>(value->param_value.bits));
+      if (own_number)
+        system_ = static_cast<std::uint8_t>(std::bit_cast<std::int32_t>(value->param_value.bits));
     }
-    const rosflight::FrameBytes frame = rosflight::encode_frame(arrival.message, sequence_++, sender_of(arrival));
+    const rosflight::FrameBytes frame =
+        rosflight::encode_frame(arrival.message, sequence_++, sender_of(arrival));
     if (outgoing_.size() + frame.size > kQueueRoom) {
       ++dropped_;
       continue;

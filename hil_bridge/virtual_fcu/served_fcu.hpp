@@ -20,7 +20,8 @@ class ServedFcu {
 
   /// Hands the unit what has come over the line.
   void take();
-  /// Hands the line what the unit has said. A queue of packets that is full drops new ones silently, as boards do.
+  /// Hands the line what the unit has said. A queue of packets that is full drops new ones silently, as
+  /// boards do.
   void give();
 
   /// Bytes read from and written to the line.

@@ -41,9 +41,10 @@ TEST(ConnectionTest, RefusesAUnitWithAnotherNumberOfParameters) {
   connection.take(version("v2.0.0-beta"), milliseconds(1));
   connection.take(rosflight::ParamValue{{1}, 251, 0, parameter_field("A"), 6}, milliseconds(2));
   EXPECT_EQ(connection.state(), ConnectionState::kRefused);
-  EXPECT_EQ(connection.refusal(),
-            "the unit has 251 parameters, ROSflight 2.0 has 333; it calls itself v2.0.0-beta; flash a firmware of "
-            "version 2.0");
+  EXPECT_EQ(
+      connection.refusal(),
+      "the unit has 251 parameters, ROSflight 2.0 has 333; it calls itself v2.0.0-beta; flash a firmware of "
+      "version 2.0");
 }
 
 TEST(ConnectionTest, FallsSilentWhenNothingMoreComes) {

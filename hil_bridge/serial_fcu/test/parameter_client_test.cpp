@@ -72,12 +72,13 @@ TEST_P(LossyLine, SetsParametersAndKnowsThatTheyAreSet) {
   EXPECT_FALSE(client.unsaved());
 }
 
-INSTANTIATE_TEST_SUITE_P(Losses, LossyLine,
-                         testing::Values(std::tuple{0.0, Time(seconds(2))}, std::tuple{0.05, Time(seconds(3))},
-                                         std::tuple{0.2, Time(seconds(5))}, std::tuple{0.5, Time(seconds(12))}),
-                         [](const auto& line) {
-                           return "of" + std::to_string(static_cast<int>(100.0 * std::get<0>(line.param))) + "Percent";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Losses, LossyLine,
+    testing::Values(std::tuple{0.0, Time(seconds(2))}, std::tuple{0.05, Time(seconds(3))},
+                    std::tuple{0.2, Time(seconds(5))}, std::tuple{0.5, Time(seconds(12))}),
+    [](const auto& line) {
+      return "of" + std::to_string(static_cast<int>(100.0 * std::get<0>(line.param))) + "Percent";
+    });
 
 TEST(ParameterClientTest, CarriesAnIntegerWhoseBitsAreANan) {
   DeskLink link;
@@ -122,9 +123,7 @@ TEST(ParameterClientTest, GivesUpASetThatTheUnitDoesNotKeep) {
   // GIVEN a unit that says an old value whatever is set
   ParameterClient client;
   Time now{};
-  const auto answer = [&] {
-    client.take(rosflight::ParamValue{{1}, 1, 0, parameter_field("A"), 6}, now);
-  };
+  const auto answer = [&] { client.take(rosflight::ParamValue{{1}, 1, 0, parameter_field("A"), 6}, now); };
   client.start_download(now);
   answer();
   ASSERT_EQ(client.set({"A", 6, 2}), "");

@@ -49,7 +49,8 @@ TEST(SerialFcuTest, KnowsHowMuchTheLineLoses) {
 
 TEST(SerialFcuTest, DropsWholeFramesWhenTheLineTakesNoMore) {
   StreamPair pair(100);
-  SerialFcu fcu(pair.near(), {.synchronise = false, .download = false});
+  test::OpenGate gate;
+  SerialFcu fcu(pair.near(), {.synchronise = false, .download = false}, &gate);
   fcu.advance(Time{});
   for (int k = 0; k < 1000; ++k) fcu.send(rosflight::OffboardControl{.u = {static_cast<float>(k)}});
   EXPECT_GT(fcu.health(Time{}).unsent, 700U);
@@ -58,7 +59,8 @@ TEST(SerialFcuTest, DropsWholeFramesWhenTheLineTakesNoMore) {
   for (int k = 0; k < 1000; ++k) {
     std::array<std::uint8_t, 100> bytes{};
     const std::size_t count = pair.far().read(bytes);
-    decoder.push(std::span(bytes).first(count), [&](const rosflight::Frame& frame) { frames.push_back(frame); });
+    decoder.push(std::span(bytes).first(count),
+                 [&](const rosflight::Frame& frame) { frames.push_back(frame); });
     fcu.flush();
   }
   EXPECT_EQ(decoder.counts().skipped_bytes, 0U);
@@ -67,9 +69,30 @@ TEST(SerialFcuTest, DropsWholeFramesWhenTheLineTakesNoMore) {
   }
 }
 
-TEST(SerialFcuTest, AsksToWriteToFlashAsTheUsualCompanionDoes) {
+TEST(SerialFcuTest, SendsNothingThatActsWithoutAGate) {
   StreamPair pair;
   SerialFcu fcu(pair.near(), {.synchronise = false, .download = false});
+  fcu.advance(Time{});
+  fcu.send(rosflight::OffboardControl{});
+  fcu.send(rosflight::RosflightAuxCmd{});
+  fcu.send(rosflight::ParamSet{});
+  fcu.send(rosflight::ExternalAttitude{});
+  for (std::uint8_t command = 0; command < 10; ++command) fcu.send(rosflight::RosflightCmd{command});
+  rosflight::StreamDecoder decoder;
+  std::array<std::uint8_t, 4096> bytes{};
+  const std::size_t count = pair.far().read(bytes);
+  decoder.push(std::span(bytes).first(count), [&](const rosflight::Frame& frame) {
+    const auto* order = std::get_if<rosflight::RosflightCmd>(&frame.message);
+    EXPECT_TRUE(std::holds_alternative<rosflight::Heartbeat>(frame.message) ||
+                (order != nullptr && order->command == 10));
+  });
+  EXPECT_EQ(decoder.counts().frames, 2U);
+}
+
+TEST(SerialFcuTest, AsksToWriteToFlashAsTheUsualCompanionDoes) {
+  StreamPair pair;
+  test::OpenGate gate;
+  SerialFcu fcu(pair.near(), {.synchronise = false, .download = false}, &gate);
   fcu.advance(Time{});
   fcu.send(rosflight::RosflightCmd{.command = 6});
   rosflight::StreamDecoder decoder;

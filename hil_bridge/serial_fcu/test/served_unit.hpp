@@ -32,6 +32,12 @@ class DeskUnit final : public Fcu {
   FirmwareHost host_;
 };
 
+/// Lets everything pass: these tests turn no motor.
+class OpenGate final : public Gate {
+ public:
+  std::optional<rosflight::Message> pass(const rosflight::Message& message, Time) override { return message; }
+};
+
 /// Loses this share of the frames of each direction, on a line of 921600 Bd.
 inline LinkFaultConfig losing(double share) {
   constexpr double kByteRate = 92160.0;
@@ -50,7 +56,7 @@ class DeskLink {
       : there_(pair_.far(), losing(loss), seed),
         here_(pair_.near(), losing(loss), seed + 1000),
         served_(unit_, there_),
-        fcu_(here_, connection) {}
+        fcu_(here_, connection, &gate_) {}
 
   void tick() {
     now_ += kTick;
@@ -87,6 +93,7 @@ class DeskLink {
   LinkFault there_;
   LinkFault here_;
   ServedFcu served_;
+  OpenGate gate_;
   SerialFcu fcu_;
   std::vector<Arrival> inbox_;
 };
