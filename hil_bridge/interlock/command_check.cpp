@@ -32,7 +32,8 @@ bool in_range(const rosflight::OffboardControl& command, const CommandLimits& li
     if (!within(command.u[k], -limit, limit)) return false;
   }
   // The free inputs of the mixer are nobody's.
-  return std::all_of(command.u.begin() + kYaw + 1, command.u.end(), [](float value) { return value == 0.0F; });
+  return std::all_of(command.u.begin() + kYaw + 1, command.u.end(),
+                     [](float value) { return value == 0.0F; });
 }
 
 }  // namespace

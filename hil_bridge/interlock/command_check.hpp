@@ -33,7 +33,7 @@ std::string_view name_of(CommandFault fault);
 /// A command and where it comes from.
 struct StampedCommand {
   rosflight::OffboardControl command;
-  Time answers{};             ///< bench time of the sensors that it answers
+  Time answers{};            ///< bench time of the sensors that it answers
   std::uint64_t number = 0;  ///< of the autopilot's step; each one counts once
 };
 

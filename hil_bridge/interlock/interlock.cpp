@@ -45,14 +45,16 @@ std::optional<rosflight::OffboardControl> Interlock::command(const StampedComman
 }
 
 std::optional<rosflight::OffboardControl> Interlock::idle() const {
-  const bool silent = status_.state != InterlockState::kReleased &&
-                      (status_.state != InterlockState::kKilled || config_.profile == InterlockProfile::kFlight);
+  const bool silent =
+      status_.state != InterlockState::kReleased &&
+      (status_.state != InterlockState::kKilled || config_.profile == InterlockProfile::kFlight);
   return silent ? std::nullopt : std::optional(zero_command());
 }
 
 std::optional<rosflight::Message> Interlock::pass(const rosflight::Message& message, Time) {
   if (std::holds_alternative<rosflight::OffboardControl>(message)) return std::nullopt;
-  // It never times out, and a "servo" at its centre is half throttle to a speed controller. The bench needs none.
+  // It never times out, and a "servo" at its centre is half throttle to a speed controller. The bench needs
+  // none.
   if (std::holds_alternative<rosflight::RosflightAuxCmd>(message)) return std::nullopt;
   const bool released = status_.state == InterlockState::kReleased || status_.state == InterlockState::kLive;
   if (changes_the_unit(message) && (released || !unit_disarmed_)) return std::nullopt;

@@ -38,11 +38,11 @@ struct InterlockStatus {
   std::uint64_t passed = 0;
 };
 
-/// The one gate through which motor commands leave the bench. docs/safety.md says what it is for; the state machine is
-/// in interlock_state.hpp.
+/// The one gate through which motor commands leave the bench. docs/safety.md says what it is for; the state
+/// machine is in interlock_state.hpp.
 ///
-/// Housekeeping passes always; what could turn a motor passes above zero in `Live` only; what changes the unit (parameters,
-/// calibrations) passes only while it reports disarmed and nothing is released.
+/// Housekeeping passes always; what could turn a motor passes above zero in `Live` only; what changes the
+/// unit (parameters, calibrations) passes only while it reports disarmed and nothing is released.
 class Interlock final : public Gate {
  public:
   explicit Interlock(const InterlockConfig& config);

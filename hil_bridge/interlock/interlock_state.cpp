@@ -14,56 +14,94 @@ bool connected(const In& in) {
   return in.link_alive && in.unit_known;
 }
 bool verified(const In& in) {
-  return connected(in) && in.unit_disarmed && !in.unit_armed && in.unit_faultless && in.parameters_equal && in.sensors_flow &&
-         in.radio_present && in.estimate_usable && in.commands_sound && in.bench_in_time;
+  return connected(in) && in.unit_disarmed && !in.unit_armed && in.unit_faultless && in.parameters_equal &&
+         in.sensors_flow && in.radio_present && in.estimate_usable && in.commands_sound && in.bench_in_time;
 }
 
-// Kills come first, and among them what the operator wants. A released or flying unit that is not all right is killed; one
-// that is not released yet falls back to the state whose conditions hold.
+// Kills come first, and among them what the operator wants. A released or flying unit that is not all right
+// is killed; one that is not released yet falls back to the state whose conditions hold.
 constexpr InterlockRow kRows[] = {
-    {"is killed", {kCold, kConnected, kVerified, kReleased, kLive}, kKilled,
-     [](const In& in) { return in.kill_wanted; }, "the operator killed"},
-    {"loses the link", {kReleased, kLive}, kKilled, [](const In& in) { return !connected(in); },
+    {"is killed",
+     {kCold, kConnected, kVerified, kReleased, kLive},
+     kKilled,
+     [](const In& in) { return in.kill_wanted; },
+     "the operator killed"},
+    {"loses the link",
+     {kReleased, kLive},
+     kKilled,
+     [](const In& in) { return !connected(in); },
      "the unit is not heard any more"},
-    {"loses the sensors", {kReleased, kLive}, kKilled, [](const In& in) { return !in.sensors_flow; },
+    {"loses the sensors",
+     {kReleased, kLive},
+     kKilled,
+     [](const In& in) { return !in.sensors_flow; },
      "no IMU data for 50 ms"},
-    {"loses the radio", {kReleased, kLive}, kKilled, [](const In& in) { return !in.radio_present; },
+    {"loses the radio",
+     {kReleased, kLive},
+     kKilled,
+     [](const In& in) { return !in.radio_present; },
      "no radio frames for 100 ms"},
-    {"has other parameters", {kReleased, kLive}, kKilled, [](const In& in) { return !in.parameters_equal; },
+    {"has other parameters",
+     {kReleased, kLive},
+     kKilled,
+     [](const In& in) { return !in.parameters_equal; },
      "a parameter of the unit has changed"},
-    {"commands nonsense", {kReleased, kLive}, kKilled, [](const In& in) { return !in.commands_sound; },
+    {"commands nonsense",
+     {kReleased, kLive},
+     kKilled,
+     [](const In& in) { return !in.commands_sound; },
      "commands were refused for too long"},
-    {"is late", {kReleased, kLive}, kKilled, [](const In& in) { return !in.bench_in_time; },
+    {"is late",
+     {kReleased, kLive},
+     kKilled,
+     [](const In& in) { return !in.bench_in_time; },
      "the control loop misses its period"},
-    {"is at fault", {kReleased}, kKilled, [](const In& in) { return !in.unit_faultless; },
+    {"is at fault",
+     {kReleased},
+     kKilled,
+     [](const In& in) { return !in.unit_faultless; },
      "the unit reports an error"},
     {"loses the estimate",
      {kReleased},
      kKilled,
      [](const In& in) { return !in.estimate_usable; },
      "the autopilot does not know attitude and height"},
-    {"reports nothing", {kReleased, kLive}, kKilled, [](const In& in) { return in.unit_armed == in.unit_disarmed; },
+    {"reports nothing",
+     {kReleased, kLive},
+     kKilled,
+     [](const In& in) { return in.unit_armed == in.unit_disarmed; },
      "the unit does not say whether it is armed"},
-    {"is reset", {kKilled}, kCold, [](const In& in) { return in.reset_wanted && !in.kill_wanted && in.unit_disarmed && !in.unit_armed; },
+    {"is reset",
+     {kKilled},
+     kCold,
+     [](const In& in) { return in.reset_wanted && !in.kill_wanted && in.unit_disarmed && !in.unit_armed; },
      "the operator reset it, with the unit disarmed"},
     {"connects", {kCold}, kConnected, connected, "version and parameters are known"},
-    {"disconnects", {kConnected, kVerified}, kCold, [](const In& in) { return !connected(in); },
+    {"disconnects",
+     {kConnected, kVerified},
+     kCold,
+     [](const In& in) { return !connected(in); },
      "the unit is not heard any more"},
     {"is found sound", {kConnected}, kVerified, verified, "everything is as the scenario wants it"},
-    {"is not sound", {kVerified}, kConnected, [](const In& in) { return !verified(in); },
+    {"is not sound",
+     {kVerified},
+     kConnected,
+     [](const In& in) { return !verified(in); },
      "something is not as the scenario wants it"},
-    {"is released", {kVerified}, kReleased, [](const In& in) { return in.release_wanted; },
+    {"is released",
+     {kVerified},
+     kReleased,
+     [](const In& in) { return in.release_wanted; },
      "the operator released the run"},
-    {"goes live", {kReleased}, kLive, [](const In& in) { return in.unit_armed; },
-     "the pilot armed"},
+    {"goes live", {kReleased}, kLive, [](const In& in) { return in.unit_armed; }, "the pilot armed"},
     {"is done", {kLive}, kVerified, [](const In& in) { return in.unit_disarmed; }, "the pilot disarmed"},
 };
 
 }  // namespace
 
 std::string_view name_of(InterlockState state) {
-  constexpr std::array<std::string_view, kInterlockStates.size()> kNames = {"cold",     "connected", "verified",
-                                                                            "released", "live",      "killed"};
+  constexpr std::array<std::string_view, kInterlockStates.size()> kNames = {
+      "cold", "connected", "verified", "released", "live", "killed"};
   return kNames[static_cast<std::size_t>(state)];
 }
 

@@ -51,7 +51,8 @@ struct InterlockInputs {
     visit("unit_faultless", self.unit_faultless, "1", "no error bit and no failsafe flag");
     visit("parameters_equal", self.parameters_equal, "1", "its parameters are those of the scenario");
     visit("sensors_flow", self.sensors_flow, "1", "its IMU was heard in the last 50 ms");
-    visit("radio_present", self.radio_present, "1", "radio frames in the last 100 ms, an override switch is mapped");
+    visit("radio_present", self.radio_present, "1",
+          "radio frames in the last 100 ms, an override switch is mapped");
     visit("estimate_usable", self.estimate_usable, "1", "the autopilot knows attitude and height");
     visit("commands_sound", self.commands_sound, "1", "no refusals for longer than half the unit's time-out");
     visit("bench_in_time", self.bench_in_time, "1", "the control loop keeps its period");

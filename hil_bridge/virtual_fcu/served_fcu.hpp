@@ -24,6 +24,8 @@ class ServedFcu {
   /// boards do.
   void give();
 
+  /// Has the line taken all that the unit said?
+  bool all_given() const { return outgoing_.empty(); }
   /// Bytes read from and written to the line.
   std::uint64_t bytes_taken() const { return bytes_taken_; }
   std::uint64_t bytes_given() const { return bytes_given_; }

@@ -11,7 +11,8 @@ namespace {
 using std::chrono::milliseconds;
 using enum CommandFault;
 
-constexpr CommandLimits kLimits = {.thrust = 50.0, .torque = 2.0, .angle = 0.7, .rate = 3.0, .greatest_age = milliseconds(5)};
+constexpr CommandLimits kLimits = {
+    .thrust = 50.0, .torque = 2.0, .angle = 0.7, .rate = 3.0, .greatest_age = milliseconds(5)};
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 

@@ -54,7 +54,8 @@ TEST(InterlockStateTest, IsLiveOnlyAfterReleasedWithAnArmedUnitAndNothingMissing
     if (now != kLive) return;
     EXPECT_TRUE(before == kReleased || before == kLive);
     EXPECT_TRUE(in.unit_armed && !in.unit_disarmed && in.link_alive && in.unit_known && in.sensors_flow &&
-                in.radio_present && in.parameters_equal && in.commands_sound && in.bench_in_time && !in.kill_wanted);
+                in.radio_present && in.parameters_equal && in.commands_sound && in.bench_in_time &&
+                !in.kill_wanted);
   });
 }
 
@@ -62,15 +63,17 @@ TEST(InterlockStateTest, IsReleasedOnlyByAnOperatorWithADisarmedUnitThatIsVerifi
   for_every_cell([](InterlockState before, const InterlockInputs& in, InterlockState now) {
     if (now != kReleased || before == kReleased) return;
     EXPECT_EQ(before, kVerified);
-    EXPECT_TRUE(in.release_wanted && in.unit_disarmed && !in.unit_armed && in.unit_faultless && in.parameters_equal && in.radio_present &&
-                in.sensors_flow && in.estimate_usable && in.link_alive && in.unit_known && in.bench_in_time);
+    EXPECT_TRUE(in.release_wanted && in.unit_disarmed && !in.unit_armed && in.unit_faultless &&
+                in.parameters_equal && in.radio_present && in.sensors_flow && in.estimate_usable &&
+                in.link_alive && in.unit_known && in.bench_in_time);
   });
 }
 
 TEST(InterlockStateTest, LetsNoArmedUnitBeyondConnectedThatWasNotReleased) {
   for_every_cell([](InterlockState before, const InterlockInputs& in, InterlockState now) {
     if (before == kCold || before == kConnected || before == kVerified) {
-      EXPECT_FALSE(in.unit_armed && !in.unit_disarmed && (now == kVerified || now == kReleased || now == kLive));
+      EXPECT_FALSE(in.unit_armed && !in.unit_disarmed &&
+                   (now == kVerified || now == kReleased || now == kLive));
     }
   });
 }
@@ -86,9 +89,10 @@ TEST(InterlockStateTest, LeavesKilledOnlyByAnOperatorWithADisarmedUnit) {
 TEST(InterlockStateTest, IsKilledByAnyTroubleOnceReleased) {
   for_every_cell([](InterlockState before, const InterlockInputs& in, InterlockState now) {
     if (before != kReleased && before != kLive) return;
-    const bool trouble = in.kill_wanted || !in.link_alive || !in.unit_known || !in.sensors_flow || !in.radio_present ||
-                         !in.parameters_equal || !in.commands_sound || !in.bench_in_time ||
-                         in.unit_armed == in.unit_disarmed || (before == kReleased && (!in.unit_faultless || !in.estimate_usable));
+    const bool trouble = in.kill_wanted || !in.link_alive || !in.unit_known || !in.sensors_flow ||
+                         !in.radio_present || !in.parameters_equal || !in.commands_sound ||
+                         !in.bench_in_time || in.unit_armed == in.unit_disarmed ||
+                         (before == kReleased && (!in.unit_faultless || !in.estimate_usable));
     EXPECT_EQ(now == kKilled, trouble);
   });
 }

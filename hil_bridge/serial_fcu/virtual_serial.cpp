@@ -1,0 +1,118 @@
+#include "hil_bridge/serial_fcu/virtual_serial.hpp"
+
+#include <poll.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "hil_bridge/transport/pseudo_terminal.hpp"
+#include "hil_bridge/transport/serial_port.hpp"
+#include "hil_bridge/virtual_fcu/served_fcu.hpp"
+
+namespace ironbird::hil_bridge {
+
+namespace {
+
+constexpr int kPatience = 1000;  // ms; a loaded machine may take a while to carry a byte, a broken one takes for ever
+constexpr int kAnyBaud = 921600;
+
+/// Counts what goes through one end of a line.
+class CountedStream final : public ByteStream {
+ public:
+  explicit CountedStream(ByteStream& line) : line_(line) {}
+  std::size_t read(std::span<std::uint8_t> to) override {
+    const std::size_t count = line_.read(to);
+    read_ += count;
+    return count;
+  }
+  std::size_t write(std::span<const std::uint8_t> from) override {
+    const std::size_t count = line_.write(from);
+    written_ += count;
+    return count;
+  }
+  bool is_up() const override { return line_.is_up(); }
+  bool reopen() override { return line_.reopen(); }
+  int descriptor() const override { return line_.descriptor(); }
+  std::string name() const override { return line_.name(); }
+  std::uint64_t bytes_read() const { return read_; }
+  std::uint64_t bytes_written() const { return written_; }
+
+ private:
+  ByteStream& line_;
+  std::uint64_t read_ = 0;
+  std::uint64_t written_ = 0;
+};
+
+void wait_for_bytes(const ByteStream& line) {
+  pollfd state{line.descriptor(), POLLIN, 0};
+  if (poll(&state, 1, kPatience) > 0) return;
+  throw LinkError(line.name() + ": bytes that were sent did not arrive within a second");
+}
+
+}  // namespace
+
+struct VirtualSerialFcu::Line {
+  Line(Fcu& fcu, std::uint8_t system, Gate* gate)
+      : unit(fcu),
+        port({terminal.device(), kAnyBaud}),
+        there(terminal),
+        here(port),
+        served(fcu, there, system),
+        serial(here, {.system = system, .synchronise = false, .download = true}, gate) {
+    port.open();
+  }
+
+  /// Until all that was sent to the unit is there.
+  void bring_up() {
+    while (!serial.flush()) served.take();
+    for (served.take(); there.bytes_read() < here.bytes_written(); served.take()) wait_for_bytes(there);
+  }
+
+  /// Until all that the unit says is here.
+  void bring_down(Time now) {
+    do {
+      served.give();
+      serial.advance(now);
+      if (here.bytes_read() < there.bytes_written()) wait_for_bytes(here);
+    } while (!served.all_given() || here.bytes_read() < there.bytes_written());
+  }
+
+  Fcu& unit;
+  PseudoTerminal terminal;
+  SerialPort port;
+  CountedStream there;
+  CountedStream here;
+  ServedFcu served;
+  SerialFcu serial;
+};
+
+VirtualSerialFcu::VirtualSerialFcu(Fcu& unit, std::uint8_t system, Gate* gate)
+    : line_(std::make_unique<Line>(unit, system, gate)) {}
+VirtualSerialFcu::~VirtualSerialFcu() = default;
+
+void VirtualSerialFcu::advance(Time now) {
+  line_->bring_up();
+  line_->unit.advance(now);
+  line_->bring_down(now);
+}
+
+void VirtualSerialFcu::receive(std::vector<Arrival>& out) {
+  line_->serial.receive(out);
+}
+
+void VirtualSerialFcu::send(const rosflight::Message& message) {
+  line_->serial.send(message);
+}
+
+const SerialFcu& VirtualSerialFcu::serial() const {
+  return line_->serial;
+}
+std::uint64_t VirtualSerialFcu::bytes_up() const {
+  return line_->here.bytes_written();
+}
+std::uint64_t VirtualSerialFcu::bytes_down() const {
+  return line_->there.bytes_written();
+}
+
+}  // namespace ironbird::hil_bridge

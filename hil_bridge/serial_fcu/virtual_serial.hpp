@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <cstdint>
+#include <vector>
+
+#include "hil_bridge/serial_fcu/serial_fcu.hpp"
+
+namespace ironbird::hil_bridge {
+
+/// A virtual unit reached over a pseudo-terminal, in lock-step: everything that goes to it and comes from it goes as
+/// bytes through the kernel, through the same decoder, port and connection as with a real unit. The commands are those of
+/// the unit without the line, bit for bit.
+///
+/// Lock-step needs no thread: after each tick both ends read until as many bytes have arrived as were sent.
+class VirtualSerialFcu final : public Fcu {
+ public:
+  /// @param unit  advanced by nobody else; outlives this
+  /// @param system  its SYS_ID
+  /// @throws LinkError where the machine has no pseudo-terminals
+  VirtualSerialFcu(Fcu& unit, std::uint8_t system, Gate* gate);
+  ~VirtualSerialFcu() override;
+
+  /// @throws LinkError when bytes that were sent do not arrive within a second
+  void advance(Time now) override;
+  void receive(std::vector<Arrival>& out) override;
+  void send(const rosflight::Message& message) override;
+
+  const SerialFcu& serial() const;
+  /// Bytes that went to the unit and came from it.
+  std::uint64_t bytes_up() const;
+  std::uint64_t bytes_down() const;
+
+ private:
+  struct Line;
+  std::unique_ptr<Line> line_;
+};
+
+}  // namespace ironbird::hil_bridge
