@@ -15,4 +15,10 @@ class Gate {
   virtual std::optional<rosflight::Message> pass(const rosflight::Message& message, Time now) = 0;
 };
 
+/// Lets everything pass. For units that exist in this process only: their propellers are numbers.
+class SimulatedUnitGate final : public Gate {
+ public:
+  std::optional<rosflight::Message> pass(const rosflight::Message& message, Time) override { return message; }
+};
+
 }  // namespace ironbird::hil_bridge

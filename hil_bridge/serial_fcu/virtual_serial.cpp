@@ -14,7 +14,8 @@ namespace ironbird::hil_bridge {
 
 namespace {
 
-constexpr int kPatience = 1000;  // ms; a loaded machine may take a while to carry a byte, a broken one takes for ever
+constexpr int kPatience =
+    1000;  // ms; a loaded machine may take a while to carry a byte, a broken one takes for ever
 constexpr int kAnyBaud = 921600;
 
 /// Counts what goes through one end of a line.

@@ -1,16 +1,16 @@
 #pragma once
 
-#include <memory>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "hil_bridge/serial_fcu/serial_fcu.hpp"
 
 namespace ironbird::hil_bridge {
 
-/// A virtual unit reached over a pseudo-terminal, in lock-step: everything that goes to it and comes from it goes as
-/// bytes through the kernel, through the same decoder, port and connection as with a real unit. The commands are those of
-/// the unit without the line, bit for bit.
+/// A virtual unit reached over a pseudo-terminal, in lock-step: everything that goes to it and comes from it
+/// goes as bytes through the kernel, through the same decoder, port and connection as with a real unit. The
+/// commands are those of the unit without the line, bit for bit.
 ///
 /// Lock-step needs no thread: after each tick both ends read until as many bytes have arrived as were sent.
 class VirtualSerialFcu final : public Fcu {

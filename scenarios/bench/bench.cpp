@@ -61,7 +61,7 @@ Bench::Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, Be
   world_ = std::make_unique<simulator::World>(world_config(scenario_), make_plant(scenario_));
   fcu_ = std::make_unique<hil_bridge::VirtualFcu>(scenario_.fcu, *world_);
   wire_autopilot(modules);
-  lockstep_ = std::make_unique<hil_bridge::Lockstep>(*fcu_, *autopilot_, scenario_.fcu.tick);
+  lockstep_ = std::make_unique<hil_bridge::Lockstep>(reached_fcu(), *autopilot_, scenario_.fcu.tick);
   add_signals(signals_, world_->truth(), autopilot_->signals(), lockstep_->telemetry(),
               scenario_.vehicle.rotors.size());
   judge_ = std::make_unique<Judge>(scenario_.checks, signals_,
@@ -72,6 +72,14 @@ Bench::Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, Be
 }
 
 Bench::~Bench() = default;
+
+hil_bridge::Fcu& Bench::reached_fcu() {
+  if (scenario_.fcu.kind == hil_bridge::FcuKind::kVirtual) return *fcu_;
+  const auto& parameters = fcu_->firmware().parameters();
+  const int system = parameters.integer(hil_bridge::virtual_fcu::find_parameter("SYS_ID"));
+  line_ = std::make_unique<hil_bridge::VirtualSerialFcu>(*fcu_, static_cast<std::uint8_t>(system), &gate_);
+  return *line_;
+}
 
 void Bench::wire_autopilot(const autopilot::Modules& modules) {
   autopilot_ = std::make_unique<autopilot::Autopilot>(loaded_.autopilot, modules);

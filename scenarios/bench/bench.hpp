@@ -11,6 +11,8 @@
 
 #include "autopilot/autopilot.hpp"
 #include "hil_bridge/executive/lockstep.hpp"
+#include "hil_bridge/interlock/gate.hpp"
+#include "hil_bridge/serial_fcu/virtual_serial.hpp"
 #include "hil_bridge/virtual_fcu/virtual_fcu.hpp"
 #include "scenarios/bench/ground_watch.hpp"
 #include "scenarios/bench/probe_recorder.hpp"
@@ -75,6 +77,8 @@ class Bench {
     std::size_t index = 0;  // into the scenario's events or snapshots, or the number of a fault
   };
 
+  /// The unit as the scenario reaches it.
+  hil_bridge::Fcu& reached_fcu();
   void wire_autopilot(const autopilot::Modules& modules);
   void wire_record();
   void wire_probes();
@@ -101,6 +105,8 @@ class Bench {
   BenchOptions options_;
   std::unique_ptr<simulator::World> world_;
   std::unique_ptr<hil_bridge::VirtualFcu> fcu_;
+  hil_bridge::SimulatedUnitGate gate_;
+  std::unique_ptr<hil_bridge::VirtualSerialFcu> line_;  // null: called directly
   std::unique_ptr<autopilot::Autopilot> autopilot_;
   std::unique_ptr<hil_bridge::Lockstep> lockstep_;
   std::unique_ptr<Recorder> recorder_;

@@ -49,7 +49,7 @@ TEST(SerialFcuTest, KnowsHowMuchTheLineLoses) {
 
 TEST(SerialFcuTest, DropsWholeFramesWhenTheLineTakesNoMore) {
   StreamPair pair(100);
-  test::OpenGate gate;
+  SimulatedUnitGate gate;
   SerialFcu fcu(pair.near(), {.synchronise = false, .download = false}, &gate);
   fcu.advance(Time{});
   for (int k = 0; k < 1000; ++k) fcu.send(rosflight::OffboardControl{.u = {static_cast<float>(k)}});
@@ -91,7 +91,7 @@ TEST(SerialFcuTest, SendsNothingThatActsWithoutAGate) {
 
 TEST(SerialFcuTest, AsksToWriteToFlashAsTheUsualCompanionDoes) {
   StreamPair pair;
-  test::OpenGate gate;
+  SimulatedUnitGate gate;
   SerialFcu fcu(pair.near(), {.synchronise = false, .download = false}, &gate);
   fcu.advance(Time{});
   fcu.send(rosflight::RosflightCmd{.command = 6});

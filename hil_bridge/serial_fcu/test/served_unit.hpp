@@ -32,12 +32,6 @@ class DeskUnit final : public Fcu {
   FirmwareHost host_;
 };
 
-/// Lets everything pass: these tests turn no motor.
-class OpenGate final : public Gate {
- public:
-  std::optional<rosflight::Message> pass(const rosflight::Message& message, Time) override { return message; }
-};
-
 /// Loses this share of the frames of each direction, on a line of 921600 Bd.
 inline LinkFaultConfig losing(double share) {
   constexpr double kByteRate = 92160.0;
@@ -93,7 +87,7 @@ class DeskLink {
   LinkFault there_;
   LinkFault here_;
   ServedFcu served_;
-  OpenGate gate_;
+  SimulatedUnitGate gate_;
   SerialFcu fcu_;
   std::vector<Arrival> inbox_;
 };

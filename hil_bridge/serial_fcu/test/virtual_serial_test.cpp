@@ -45,13 +45,14 @@ TEST(VirtualSerialFcuTest, SaysAndDoesTheSameAsTheUnitWithoutALine) {
   DeskUnit direct_unit(config);
   const auto direct = said(direct_unit, direct_unit);
   DeskUnit served_unit(config);
-  test::OpenGate gate;
+  SimulatedUnitGate gate;
   VirtualSerialFcu line(served_unit, 1, &gate);
   const auto served = said(line, served_unit);
   ASSERT_EQ(direct.size(), served.size());
   for (std::size_t k = 0; k < direct.size(); ++k) {
     ASSERT_EQ(direct[k].size, served[k].size) << k;
-    ASSERT_TRUE(std::equal(direct[k].bytes.begin(), direct[k].bytes.begin() + static_cast<std::ptrdiff_t>(direct[k].size),
+    ASSERT_TRUE(std::equal(direct[k].bytes.begin(),
+                           direct[k].bytes.begin() + static_cast<std::ptrdiff_t>(direct[k].size),
                            served[k].bytes.begin()))
         << k;
   }

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,6 +13,7 @@
 #include "autopilot/modules.hpp"
 #include "scenarios/bench/bench.hpp"
 #include "scenarios/record/log.hpp"
+#include "scenarios/record/mcap_reader.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -22,8 +24,8 @@ class SameBytesTest : public ::testing::Test {
   ~SameBytesTest() override { std::filesystem::remove_all(folder_); }
 
   /// Flies the first 12 s, take-off included. @return the log's bytes
-  std::string fly(std::uint64_t seed, int seconds_until_stop = 1000) {
-    const Overrides overrides{{{"duration", "12"}}, seed};
+  std::string fly(std::uint64_t seed, int seconds_until_stop = 1000, const char* kind = "virtual") {
+    const Overrides overrides{{{"duration", "12"}, {"fcu.kind", '"' + std::string(kind) + '"'}}, seed};
     const LoadedScenario loaded = load_scenario(scenario_, overrides, modules_);
     BenchOptions options;
     options.log_file = log_;
@@ -65,6 +67,23 @@ TEST_F(SameBytesTest, AnInterruptedRunLeavesALogThatOpensAndIsTheBeginningOfTheW
   ASSERT_GT(times.size(), 400U);
   ASSERT_LT(times.size(), all.size());
   EXPECT_EQ(times.back(), all[times.size() - 1]);
+}
+
+TEST_F(SameBytesTest, OverAPseudoTerminalEveryMessageIsTheSame) {
+  constexpr int kWholeRun = 1000;
+  fly(3, kWholeRun, "virtual");
+  const McapReader called(log_);
+  fly(3, kWholeRun, "virtual_serial");
+  const McapReader carried(log_);
+  ASSERT_GT(called.messages().size(), 10000U);
+  ASSERT_EQ(called.messages().size(), carried.messages().size());
+  for (std::size_t k = 0; k < called.messages().size(); ++k) {
+    const McapMessage& one = called.messages()[k];
+    const McapMessage& other = carried.messages()[k];
+    ASSERT_TRUE(one.channel == other.channel && one.log_time == other.log_time &&
+                std::ranges::equal(one.data, other.data))
+        << called.channels().at(one.channel).topic << " at " << one.log_time << " ns";
+  }
 }
 
 }  // namespace
