@@ -65,6 +65,7 @@ void Connection::take(const rosflight::Message& message, Time now) {
     if (answer->tc1 > 0) time_sync_.exchange(Time{answer->ts1}, Time{answer->tc1}, now);
   } else if (const auto* status = std::get_if<rosflight::RosflightStatus>(&message)) {
     status_ = *status;
+    status_at_ = now;
   } else if (const auto* acknowledged = std::get_if<rosflight::RosflightCmdAck>(&message)) {
     parameters_.take(*acknowledged);
   } else if (const auto* version = std::get_if<rosflight::RosflightVersion>(&message)) {
@@ -83,6 +84,7 @@ void Connection::hear(Time fcu, Time now) {
     fcu_clock_ = Time::min();
     time_sync_.reset();
     status_.reset();
+    status_at_.reset();
     version_.clear();
     state_ = ConnectionState::kHeard;
     if (config_.download) parameters_.start_download(now);

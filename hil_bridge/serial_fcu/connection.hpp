@@ -50,6 +50,7 @@ class Connection {
   static constexpr Time kImuSilence = std::chrono::milliseconds(50);
   static constexpr Time kHeartbeatSilence = std::chrono::seconds(3);
   static constexpr Time kRcSilence = std::chrono::milliseconds(100);
+  static constexpr Time kStatusSilence = std::chrono::milliseconds(500);
   static constexpr int kParameters = 333;  ///< of every ROSflight 2.0 unit
 
   explicit Connection(const ConnectionConfig& config = {});
@@ -74,6 +75,9 @@ class Connection {
   bool heartbeat_alive(Time now) const { return heard_within(heartbeat_, now, kHeartbeatSilence); }
   bool radio_alive(Time now) const { return heard_within(radio_, now, kRcSilence); }
   const std::optional<rosflight::RosflightStatus>& status() const { return status_; }
+  /// Does its latest report, not older than half a second, say that it is armed, or that it is not?
+  bool armed(Time now) const { return heard_within(status_at_, now, kStatusSilence) && status_->armed != 0; }
+  bool disarmed(Time now) const { return heard_within(status_at_, now, kStatusSilence) && status_->armed == 0; }
   /// How often the unit has booted since the line came up, as its clock tells.
   int reboots() const { return reboots_; }
 
@@ -97,6 +101,7 @@ class Connection {
   std::optional<Time> heartbeat_;
   std::optional<Time> radio_;
   std::optional<rosflight::RosflightStatus> status_;
+  std::optional<Time> status_at_;
   Time fcu_clock_ = Time::min();
   int reboots_ = 0;
   Time heartbeat_due_ = Time::min();

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "hil_bridge/transport/byte_stream.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/config/user_error.hpp"
 
@@ -24,6 +25,7 @@ bool is(const std::exception& error) {
 }  // namespace
 
 Failure failure_of(const std::exception& error) {
+  if (is<hil_bridge::LinkError>(error)) return {kExitHardware, error.what()};
   if (is<UserError>(error) || is<std::invalid_argument>(error) || is<std::system_error>(error)) {
     return {kExitUsage, error.what()};
   }

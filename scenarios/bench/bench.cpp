@@ -8,9 +8,7 @@
 #include "scenarios/bench/check_rules.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
-#include "simulator/plant/mujoco_plant.hpp"
-#include "simulator/plant/ode_plant.hpp"
-#include "simulator/plant/rigid_body_plant.hpp"
+#include "scenarios/bench/world_maker.hpp"
 
 namespace ironbird::scenarios {
 
@@ -24,41 +22,11 @@ constexpr double kDisarmDelay = 1.0;
 /// The pilot gives the vehicle to the companion this long after arming.
 constexpr double kHandOverDelay = 0.5;
 
-Vector3 vector(const std::array<double, 3>& numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
-std::unique_ptr<simulator::Plant> make_plant(const Scenario& scenario) {
-  const simulator::FieldParams field;
-  switch (scenario.plant.engine) {
-    case Engine::kMujoco:
-      return simulator::make_mujoco_plant(scenario.vehicle, field);
-    case Engine::kOde:
-      return simulator::make_ode_plant(scenario.vehicle, field);
-    case Engine::kRigidBody:
-      return std::make_unique<simulator::RigidBodyPlant>();
-  }
-  throw std::invalid_argument("plant.engine: unknown");
-}
-
-simulator::WorldConfig world_config(const Scenario& scenario) {
-  simulator::WorldConfig config;
-  config.vehicle = scenario.vehicle;
-  config.environment = scenario.environment;
-  config.sensors = scenario.sensors;
-  config.initial_p_NB_N = vector(scenario.start.p_N);
-  config.initial_heading = scenario.start.heading;
-  config.on_ground = scenario.start.on_ground;
-  config.tick = scenario.fcu.tick;
-  config.seed = scenario.seed;
-  return config;
-}
-
 }  // namespace
 
 Bench::Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, BenchOptions options)
     : loaded_(loaded), scenario_(loaded.scenario), options_(std::move(options)) {
-  world_ = std::make_unique<simulator::World>(world_config(scenario_), make_plant(scenario_));
+  world_ = make_world(scenario_);
   fcu_ = std::make_unique<hil_bridge::VirtualFcu>(scenario_.fcu, *world_);
   wire_autopilot(modules);
   lockstep_ = std::make_unique<hil_bridge::Lockstep>(reached_fcu(), *autopilot_, scenario_.fcu.tick);
