@@ -51,13 +51,11 @@ struct CanFrame {
 struct ReceivedFrame {
   CanFrame frame;
   Time stamp{};
-  bool hardware_stamp = false;
 
   template <class Self, class Visit>
   static constexpr void describe(Self& self, Visit&& visit) {
     visit("frame", self.frame, "", "what arrived");
     visit("stamp", self.stamp, "ns", "when it was whole");
-    visit("hardware_stamp", self.hardware_stamp, "1", "the controller took the time, not the kernel");
   }
 };
 
