@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
-#include <type_traits>
 
+#include "hil_bridge/can/bounds_check.hpp"
 #include "hil_bridge/transport/bounded_queue.hpp"
 
 namespace ironbird::hil_bridge::transport {
@@ -18,20 +17,6 @@ constexpr int kOffLimit = 256;
 constexpr std::size_t kEventQueue = 64;
 /// Error flag, delimiter and the pause before the next frame.
 constexpr double kErrorBits = 20.0;
-
-struct BoundsCheck {
-  template <class T, class... Bounds>
-  void operator()(const char* name, const T& value, const char* unit, const char*, Bounds... bounds) const {
-    if constexpr (sizeof...(bounds) == 2) {
-      const double limits[] = {static_cast<double>(bounds)...};
-      if (!(value >= limits[0] && value <= limits[1])) {
-        throw std::invalid_argument("in_process_bus." + std::string(name) + " = " + std::to_string(value) +
-                                    ' ' + unit + ", must be " + std::to_string(limits[0]) + " to " +
-                                    std::to_string(limits[1]));
-      }
-    }
-  }
-};
 
 /// In the order in which frames win: the first 11 bits, then short identifiers, then the rest; data before
 /// requests.
@@ -131,7 +116,7 @@ class InProcessBus::End final : public FrameBus {
 };
 
 InProcessBus::InProcessBus(const InProcessBusParams& params) : params_(params), dice_(params.seed) {
-  InProcessBusParams::describe(params_, BoundsCheck{});
+  InProcessBusParams::describe(params_, can::BoundsCheck("in_process_bus"));
 }
 
 InProcessBus::~InProcessBus() = default;
