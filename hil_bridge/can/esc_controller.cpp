@@ -57,7 +57,8 @@ bool EscController::command(std::span<const double> throttles, Time now) {
 
 void EscController::step(Time now) {
   while (const std::optional<ReceivedFrame> frame = bus_.receive()) {
-    if (const std::optional<ReceivedTransfer> transfer = port_.push(*frame)) take(*transfer, frame->stamp);
+    if (const std::optional<ReceivedTransfer> transfer = port_.push(*frame))
+      take(*transfer, std::min(frame->stamp, now));
   }
   if (now >= next_status_) {
     NodeStatus status;

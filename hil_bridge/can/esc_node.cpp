@@ -47,15 +47,17 @@ EscNode::EscNode(const EscNodeParams& params, Time start)
 void EscNode::take(const ReceivedFrame& frame, Time now) {
   const std::optional<ReceivedTransfer> transfer = port_.push(frame);
   if (!transfer) return;
+  // A stamp from the future would stay fresh for ever.
+  const Time begun = std::min(transfer->begun, now);
   if (const auto command = message_of<RawCommand>(*transfer)) {
     const auto place = static_cast<std::size_t>(parameters_[EscParameter::kEscIndex]);
     if (place >= command->cmd.count) return;
     throttle_ = static_cast<double>(std::max<int>(command->cmd.items[place], 0)) / kGreatestRawCommand;
-    commanded_at_ = transfer->begun;
+    commanded_at_ = begun;
     commanded_ = true;
   } else if (const auto arming = message_of<ArmingStatus>(*transfer)) {
     armed_ = arming->status == ArmingStatus::kArmed;
-    armed_at_ = transfer->begun;
+    armed_at_ = begun;
     arming_heard_ = true;
   } else {
     answer(*transfer, now);

@@ -158,6 +158,19 @@ TEST_F(EscNodeTest, TakesACommandThatWaitedTooLongInAQueueForOld) {
   EXPECT_EQ(condition(), EscCondition::kStale);
 }
 
+TEST_F(EscNodeTest, DoesNotTakeACommandForFreshForEverBecauseItsStampIsWrong) {
+  arm();
+  RawCommand command{};
+  for (int k = 0; k < 4; ++k) command.cmd.push(4000);
+  const Payload<RawCommand> payload = encode(command);
+  FrameSplitter splitter({7, TransferKind::kMessage, RawCommand::kType.key.data_type_id, kController, 0, 9},
+                         crc_seed(RawCommand::kType.signature), payload.view());
+  node_->take({*splitter.next(), now_ + std::chrono::hours(1)}, now_);
+  EXPECT_GT(throttle(), 0.0);
+  run(milliseconds(101));
+  EXPECT_EQ(condition(), EscCondition::kStale);
+}
+
 TEST_F(EscNodeTest, StopsWhenNobodySaysAnyMoreThatTheVehicleIsArmed) {
   arm();
   const Time armed = now_;

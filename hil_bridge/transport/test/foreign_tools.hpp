@@ -96,7 +96,8 @@ class Candump {
  private:
   static std::string line(const std::string& interface, int frames) {
     const std::string silence = std::to_string(std::chrono::milliseconds(kPatience).count());
-    // Room for more frames than a test sends in one go: a tool that is not scheduled in time must not lose any.
+    // Room for more frames than a test sends in one go: a tool that is not scheduled in time must not lose
+    // any.
     return "candump -L -r 1000000 -T " + silence + " -n " + std::to_string(frames) + ' ' + interface;
   }
 
