@@ -129,12 +129,14 @@ TEST_F(EscControllerTest, MissesAMotorAfter1200MillisecondsAndItsNodeAfterThreeS
   EXPECT_TRUE(ready(0));
 }
 
-TEST_F(EscControllerTest, NoticesARestart) {
+TEST_F(EscControllerTest, NoticesARestartAndAsksWhoItIsNow) {
   run(seconds(3));
-  escs_[0] = EscNode({.node = 20, .esc_index = 0}, now_);
+  escs_[0] = EscNode({.node = 20, .esc_index = 0, .name = "org.example.other"}, now_);
   run(seconds(1));
   EXPECT_EQ(controller_.node(20).restarts, 1U);
   EXPECT_EQ(controller_.node(21).restarts, 0U);
+  run(milliseconds(100));
+  EXPECT_EQ(controller_.node(20).name.text(), "org.example.other");
 }
 
 TEST_F(EscControllerTest, DoesNotTrustAMotorThatComplains) {

@@ -327,6 +327,16 @@ TEST_F(EscNodeTest, StandsStillAfterARestartAndCountsItsUptimeAnew) {
   EXPECT_LE(statuses_.back().uptime_sec, 1U);
 }
 
+TEST_F(EscNodeTest, ForgetsInARestartWhatWasSaidOnArming) {
+  make({.node = kNode, .esc_index = 2, .require_arming = false});
+  arm(0);
+  command(4000);
+  EXPECT_EQ(condition(), EscCondition::kDisarmed);
+  ask(RestartNodeRequest{RestartNodeRequest::kMagicNumber});
+  command(4000);
+  EXPECT_EQ(condition(), EscCondition::kRunning) << "it needs no word, and has heard none";
+}
+
 TEST_F(EscNodeTest, DoesNotRestartWithoutTheMagicNumber) {
   arm();
   command(4000);
