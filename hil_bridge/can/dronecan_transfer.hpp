@@ -190,12 +190,15 @@ struct TransferCounters {
 /// ignores.
 class TransferReceiver {
  public:
-  /// @param own_node  1 to 127: services for others are ignored
+  /// @param own_node  1 to 127, services for others are ignored; 0 for a node that has none yet
   TransferReceiver(std::uint8_t own_node, std::span<const Subscription> subscriptions);
 
   /// Takes one frame. @return the transfer that it completes, if any
   /// @param stamp  when it arrived; frames are given in the order of arrival
   std::optional<ReceivedTransfer> push(const CanFrame& frame, Time stamp);
+
+  /// Another number from now on.
+  void set_own_node(std::uint8_t own_node) { own_node_ = own_node; }
 
   const TransferCounters& counters() const { return counters_; }
 

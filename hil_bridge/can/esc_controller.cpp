@@ -14,11 +14,12 @@ constexpr Time kArmingPeriod = std::chrono::milliseconds(500);
 constexpr Time kAnswerTimeout = std::chrono::seconds(1);
 constexpr std::uint8_t kCommandPriority = 7;
 constexpr std::uint8_t kOtherPriority = 24;
+constexpr std::uint8_t kAllocationPriority = 30;
 
 constexpr std::array kHears = {subscription<NodeStatus>(), subscription<EscStatus>(),
-                               subscription<GetNodeInfoResponse>()};
+                               subscription<GetNodeInfoResponse>(), subscription<Allocation>()};
 constexpr std::array kSays = {NodeStatus::kType.key, RawCommand::kType.key, ArmingStatus::kType.key,
-                              GetNodeInfoRequest::kType.key};
+                              GetNodeInfoRequest::kType.key, Allocation::kType.key};
 
 const EscControllerParams& checked(const EscControllerParams& params) {
   EscControllerParams::describe(params, BoundsCheck("esc_controller"));
@@ -33,7 +34,9 @@ EscController::EscController(const EscControllerParams& params, transport::Frame
       motors_(static_cast<std::size_t>(params.count)),
       start_(start),
       next_status_(start),
-      next_arming_(start) {}
+      next_arming_(start) {
+  if (params.grant_numbers) numbers_.emplace();
+}
 
 void EscController::set_armed(bool armed) {
   // The word goes out with the next step, not when it would be due.
@@ -77,7 +80,11 @@ void EscController::step(Time now) {
 
 void EscController::take(const ReceivedTransfer& transfer, Time stamp) {
   const std::uint8_t source = transfer.head.source;
-  if (source == 0) return;
+  if (source == 0) {
+    const std::optional<Allocation> wish = message_of<Allocation>(transfer);
+    if (wish && numbers_) take_wish(*wish, stamp);
+    return;
+  }
   if (const auto status = message_of<NodeStatus>(transfer)) {
     take_status(source, *status, stamp);
   } else if (const auto report = message_of<EscStatus>(transfer)) {
@@ -86,6 +93,11 @@ void EscController::take(const ReceivedTransfer& transfer, Time stamp) {
     nodes_[source].name = info->name;
     nodes_[source].named = true;
   }
+}
+
+void EscController::take_wish(const Allocation& wish, Time now) {
+  const auto taken = [&](std::uint8_t other) { return other == port_.node() || nodes_[other].known; };
+  if (const auto answer = numbers_->take(wish, now, taken)) port_.send(*answer, kAllocationPriority, now);
 }
 
 void EscController::take_status(std::uint8_t source, const NodeStatus& status, Time stamp) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hil_bridge/can/dronecan_messages.hpp"
+#include "hil_bridge/can/dynamic_node_id.hpp"
 #include "hil_bridge/can/node_port.hpp"
 
 namespace ironbird::hil_bridge::can {
@@ -16,12 +17,14 @@ struct EscControllerParams {
   int node = 10;
   int count = 4;
   bool fd = false;
+  bool grant_numbers = false;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("node", self.node, "1", "number on the bus", 1, 127);
     visit("count", self.count, "1", "motors", 1, 20);
     visit("fd", self.fd, "1", "sends CAN FD frames");
+    visit("grant_numbers", self.grant_numbers, "1", "gives numbers to nodes that ask; only one on a bus may");
   }
 };
 
@@ -104,12 +107,14 @@ class EscController {
 
  private:
   void take(const ReceivedTransfer& transfer, Time stamp);
+  void take_wish(const Allocation& wish, Time now);
   void take_status(std::uint8_t source, const NodeStatus& status, Time stamp);
   void take_report(std::uint8_t source, const EscStatus& status, Time stamp);
   void ask_names(Time now);
 
   transport::FrameBus& bus_;
   NodePort port_;
+  std::optional<NodeIdServer> numbers_;
   std::array<NodeRecord, kGreatestNode + 1> nodes_{};
   std::vector<EscRecord> motors_;
   Time start_;

@@ -13,11 +13,13 @@ namespace {
 constexpr Time kStatusPeriod = std::chrono::seconds(1);
 constexpr std::uint8_t kReportPriority = 16;
 constexpr std::uint8_t kStatusPriority = 24;
+constexpr std::uint8_t kAllocationPriority = 30;
 
-constexpr std::array kHears = {subscription<RawCommand>(),           subscription<ArmingStatus>(),
-                               subscription<GetNodeInfoRequest>(),   subscription<GetSetRequest>(),
-                               subscription<ExecuteOpcodeRequest>(), subscription<RestartNodeRequest>()};
-constexpr std::array kSays = {NodeStatus::kType.key, EscStatus::kType.key};
+constexpr std::array kHears = {
+    subscription<RawCommand>(),    subscription<ArmingStatus>(),         subscription<GetNodeInfoRequest>(),
+    subscription<GetSetRequest>(), subscription<ExecuteOpcodeRequest>(), subscription<RestartNodeRequest>(),
+    subscription<Allocation>()};
+constexpr std::array kSays = {NodeStatus::kType.key, EscStatus::kType.key, Allocation::kType.key};
 
 const EscNodeParams& checked(const EscNodeParams& params) {
   EscNodeParams::describe(params, BoundsCheck("esc_node"));
@@ -29,6 +31,16 @@ EscParameters::Values defaults(const EscNodeParams& params) {
           params.require_arming ? 1 : 0};
 }
 
+/// The same for every run: whoever keeps a table of boards finds this one again.
+UniqueId unique_id_of(const EscNodeParams& params) {
+  UniqueId id{};
+  for (std::size_t k = 0; k < std::min(params.name.size(), id.size() - 1); ++k) {
+    id[k] = static_cast<std::uint8_t>(params.name[k]);
+  }
+  id.back() = static_cast<std::uint8_t>(params.esc_index);
+  return id;
+}
+
 /// The time at which something periodic is due again. What was missed is not made up for.
 Time next_after(Time due, Time period, Time now) {
   return due + ((now - due) / period + 1) * period;
@@ -38,15 +50,20 @@ Time next_after(Time due, Time period, Time now) {
 
 EscNode::EscNode(const EscNodeParams& params, Time start)
     : name_(checked(params).name),
+      unique_id_(unique_id_of(params)),
       port_(static_cast<std::uint8_t>(params.node), kHears, kSays, params.fd),
       parameters_(defaults(params)),
       start_(start),
       next_status_(start),
-      next_report_(start) {}
+      next_report_(start) {
+  if (params.node == 0) asking_.emplace(unique_id_, 0, start);
+}
 
 void EscNode::take(const ReceivedFrame& frame, Time now) {
   const std::optional<ReceivedTransfer> transfer = port_.push(frame);
   if (!transfer) return;
+  if (holds<Allocation>(*transfer)) take_allocation(*transfer, now);
+  if (port_.node() == 0) return;
   // A stamp from the future would stay fresh for ever.
   const Time begun = std::min(transfer->begun, now);
   if (const auto command = message_of<RawCommand>(*transfer)) {
@@ -62,6 +79,20 @@ void EscNode::take(const ReceivedFrame& frame, Time now) {
   } else {
     answer(*transfer, now);
   }
+}
+
+void EscNode::take_allocation(const ReceivedTransfer& transfer, Time now) {
+  const std::optional<Allocation> message = message_of<Allocation>(transfer);
+  if (!message || !asking_) return;
+  asking_->take(*message, transfer.head.source == 0, now);
+  if (port_.node() != 0 || !asking_->node()) return;
+  port_.set_node(*asking_->node());
+  next_status_ = now;
+  next_report_ = now;
+}
+
+void EscNode::ask_for_number(Time now) {
+  if (const std::optional<Allocation> wish = asking_->step(now)) port_.send(*wish, kAllocationPriority, now);
 }
 
 void EscNode::answer(const ReceivedTransfer& request, Time now) {
@@ -87,10 +118,18 @@ void EscNode::restart(Time now) {
   commanded_ = false;
   arming_heard_ = false;
   armed_ = false;
+  if (!asking_) return;
+  port_.set_node(0);
+  asking_.emplace(unique_id_, 0, now);
 }
 
 void EscNode::step(const EscReading& reading, Time now, transport::FrameBus& bus) {
   health_ = reading.health;
+  if (port_.node() == 0) {
+    ask_for_number(now);
+    port_.flush(now, bus);
+    return;
+  }
   if (now >= next_status_) {
     port_.send(status(now), kStatusPriority, now);
     next_status_ = next_after(next_status_, kStatusPeriod, now);
@@ -127,11 +166,7 @@ GetNodeInfoResponse EscNode::info(Time now) const {
   GetNodeInfoResponse response;
   response.status = status(now);
   response.name = BoundedText<80>(name_);
-  // The same for every run: whoever keeps a table of boards finds this one again.
-  for (std::size_t k = 0; k < std::min(name_.size(), std::size_t{15}); ++k) {
-    response.hardware_version.unique_id[k] = static_cast<std::uint8_t>(name_[k]);
-  }
-  response.hardware_version.unique_id[15] = port_.node();
+  response.hardware_version.unique_id = unique_id_;
   return response;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hil_bridge/can/dronecan_messages.hpp"
+#include "hil_bridge/can/dynamic_node_id.hpp"
 #include "hil_bridge/can/esc_parameters.hpp"
 #include "hil_bridge/can/node_port.hpp"
 
@@ -22,7 +23,7 @@ struct EscNodeParams {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("node", self.node, "1", "number on the bus", 1, 127);
+    visit("node", self.node, "1", "number on the bus, 0 to ask for one", 0, 127);
     visit("esc_index", self.esc_index, "1", "place in the command", 0, 19);
     visit("status_rate", self.status_rate, "Hz", "reports a second", 10, 50);
     visit("command_timeout", self.command_timeout, "s", "a command older than this stops the motor", 0.02,
@@ -72,7 +73,8 @@ struct EscCommand {
 /// stepping object. Has no motor: whoever steps it turns the simulated rotor by its command and hands in the
 /// readings.
 ///
-/// Is not reversible: a negative command stops it. Does not ask for a node number, it has one.
+/// Is not reversible: a negative command stops it. While it has no number it asks for one and takes no
+/// commands.
 class EscNode {
  public:
   /// How long the word that the vehicle is armed is good for: four times the period at which controllers say
@@ -94,6 +96,8 @@ class EscNode {
   const NodePort& port() const { return port_; }
 
  private:
+  void ask_for_number(Time now);
+  void take_allocation(const ReceivedTransfer& transfer, Time now);
   void answer(const ReceivedTransfer& request, Time now);
   GetNodeInfoResponse info(Time now) const;
   NodeStatus status(Time now) const;
@@ -101,7 +105,9 @@ class EscNode {
   void restart(Time now);
 
   std::string name_;
+  UniqueId unique_id_;
   NodePort port_;
+  std::optional<NodeIdClient> asking_;
   EscParameters parameters_;
   Time start_;
   Time next_status_;

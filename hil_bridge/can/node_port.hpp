@@ -15,7 +15,8 @@ inline constexpr Time kSendLifetime = std::chrono::seconds(1);
 /// How one node sends and receives messages: its number, its transfer ids, its outbox, its receiver.
 class NodePort {
  public:
-  /// @param node  1 to 127
+  /// @param node  1 to 127, 0 for a node that has none yet and may send short messages of the types 0 to 3
+  /// alone
   /// @param in    what it listens to
   /// @param out   the messages and requests that it will send
   /// @param fd    sends CAN FD frames; a response goes the way of its request
@@ -44,6 +45,10 @@ class NodePort {
   void flush(Time now, transport::FrameBus& bus) { outbox_.flush(now, bus); }
 
   std::uint8_t node() const { return node_; }
+  void set_node(std::uint8_t node) {
+    node_ = node;
+    receiver_.set_own_node(node);
+  }
   const FrameOutbox& outbox() const { return outbox_; }
   const TransferReceiver& receiver() const { return receiver_; }
 

@@ -257,7 +257,7 @@ TEST_F(EscNodeTest, SaysWhoItIs) {
   ASSERT_TRUE(info_.has_value());
   EXPECT_EQ(info_->name.text(), "org.ironbird.esc");
   EXPECT_EQ(info_->status.uptime_sec, 3U);
-  EXPECT_EQ(info_->hardware_version.unique_id[15], kNode);
+  EXPECT_EQ(info_->hardware_version.unique_id[15], 2);
 }
 
 TEST_F(EscNodeTest, ReportsInCanFdFramesAndAnswersTheWayItWasAsked) {
@@ -354,7 +354,7 @@ TEST_F(EscNodeTest, IsRefusedWithParametersOutOfBounds) {
       return problem.what();
     }
   };
-  EXPECT_EQ(reason({.node = 0}), "esc_node.node = 0, must be 1 to 127");
+  EXPECT_EQ(reason({.node = 128}), "esc_node.node = 128, must be 0 to 127");
   EXPECT_EQ(reason({.esc_index = 20}), "esc_node.esc_index = 20, must be 0 to 19");
   EXPECT_EQ(reason({.status_rate = 100}), "esc_node.status_rate = 100 Hz, must be 10 to 50");
   EXPECT_EQ(reason({.command_timeout = NAN}).substr(0, 25), "esc_node.command_timeout ");
