@@ -73,12 +73,13 @@ endfunction()
 
 # ironbird_test(NAME estimator SOURCES ekf_test.cpp ... LINKS ironbird::autopilot [LABELS slow] [WHOLE])
 #   makes the program NAME_test and registers each of its cases with CTest under LABELS (default: unit). With WHOLE the
-#   program is registered as one CTest case, for suites of very many small cases.
+#   program is registered as one CTest case, for suites of very many small cases. RUNNER is a command that runs the
+#   program, as one case: ci/with_vcan.
 function(ironbird_test)
   if(NOT IRONBIRD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(arg "WHOLE" "NAME;TIMEOUT" "SOURCES;LINKS;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "WHOLE" "NAME;TIMEOUT" "SOURCES;LINKS;LABELS;RUNNER" ${ARGN})
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()
@@ -94,8 +95,8 @@ function(ironbird_test)
   target_compile_definitions(${target} PRIVATE IRONBIRD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_compile_options(${target} PRIVATE ${test_options})
   ironbird_reuse_headers(${target} tests)
-  if(arg_WHOLE)
-    add_test(NAME ${target} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  if(arg_WHOLE OR arg_RUNNER)
+    add_test(NAME ${target} COMMAND ${arg_RUNNER} $<TARGET_FILE:${target}> WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${target} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
   else()
     gtest_discover_tests(${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DISCOVERY_TIMEOUT 60

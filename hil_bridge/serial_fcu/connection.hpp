@@ -77,7 +77,9 @@ class Connection {
   const std::optional<rosflight::RosflightStatus>& status() const { return status_; }
   /// Does its latest report, not older than half a second, say that it is armed, or that it is not?
   bool armed(Time now) const { return heard_within(status_at_, now, kStatusSilence) && status_->armed != 0; }
-  bool disarmed(Time now) const { return heard_within(status_at_, now, kStatusSilence) && status_->armed == 0; }
+  bool disarmed(Time now) const {
+    return heard_within(status_at_, now, kStatusSilence) && status_->armed == 0;
+  }
   /// How often the unit has booted since the line came up, as its clock tells.
   int reboots() const { return reboots_; }
 

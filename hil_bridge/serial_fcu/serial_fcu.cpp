@@ -31,7 +31,7 @@ bool writes_to_flash(const rosflight::Message& message) {
 
 }  // namespace
 
-SerialFcu::SerialFcu(ByteStream& line, const ConnectionConfig& config, Gate* gate)
+SerialFcu::SerialFcu(transport::ByteStream& line, const ConnectionConfig& config, Gate* gate)
     : line_(line), gate_(gate), connection_(config) {
   inbox_.reserve(kInboxRoom);
   outgoing_.reserve(kOutgoingRoom);

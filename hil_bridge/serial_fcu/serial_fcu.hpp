@@ -25,7 +25,7 @@ class SerialFcu final : public Fcu {
   /// @param gate  is asked before anything leaves; outlives this. Without one no motor command leaves at all,
   /// and
   ///              nothing that changes the unit
-  explicit SerialFcu(ByteStream& line, const ConnectionConfig& config = {}, Gate* gate = nullptr);
+  explicit SerialFcu(transport::ByteStream& line, const ConnectionConfig& config = {}, Gate* gate = nullptr);
 
   /// Takes what has arrived, sends what is due.
   void advance(Time now) override;
@@ -58,7 +58,7 @@ class SerialFcu final : public Fcu {
 
   void write(const rosflight::Message& message);
 
-  ByteStream& line_;
+  transport::ByteStream& line_;
   Gate* gate_;
   Time now_{};
   rosflight::StreamDecoder decoder_;

@@ -19,9 +19,9 @@ constexpr int kPatience =
 constexpr int kAnyBaud = 921600;
 
 /// Counts what goes through one end of a line.
-class CountedStream final : public ByteStream {
+class CountedStream final : public transport::ByteStream {
  public:
-  explicit CountedStream(ByteStream& line) : line_(line) {}
+  explicit CountedStream(transport::ByteStream& line) : line_(line) {}
   std::size_t read(std::span<std::uint8_t> to) override {
     const std::size_t count = line_.read(to);
     read_ += count;
@@ -40,15 +40,15 @@ class CountedStream final : public ByteStream {
   std::uint64_t bytes_written() const { return written_; }
 
  private:
-  ByteStream& line_;
+  transport::ByteStream& line_;
   std::uint64_t read_ = 0;
   std::uint64_t written_ = 0;
 };
 
-void wait_for_bytes(const ByteStream& line) {
+void wait_for_bytes(const transport::ByteStream& line) {
   pollfd state{line.descriptor(), POLLIN, 0};
   if (poll(&state, 1, kPatience) > 0) return;
-  throw LinkError(line.name() + ": bytes that were sent did not arrive within a second");
+  throw transport::LinkError(line.name() + ": bytes that were sent did not arrive within a second");
 }
 
 }  // namespace
@@ -80,8 +80,8 @@ struct VirtualSerialFcu::Line {
   }
 
   Fcu& unit;
-  PseudoTerminal terminal;
-  SerialPort port;
+  transport::PseudoTerminal terminal;
+  transport::SerialPort port;
   CountedStream there;
   CountedStream here;
   ServedFcu served;

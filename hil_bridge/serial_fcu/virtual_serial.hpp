@@ -17,11 +17,11 @@ class VirtualSerialFcu final : public Fcu {
  public:
   /// @param unit  advanced by nobody else; outlives this
   /// @param system  its SYS_ID
-  /// @throws LinkError where the machine has no pseudo-terminals
+  /// @throws transport::LinkError where the machine has no pseudo-terminals
   VirtualSerialFcu(Fcu& unit, std::uint8_t system, Gate* gate);
   ~VirtualSerialFcu() override;
 
-  /// @throws LinkError when bytes that were sent do not arrive within a second
+  /// @throws transport::LinkError when bytes that were sent do not arrive within a second
   void advance(Time now) override;
   void receive(std::vector<Arrival>& out) override;
   void send(const rosflight::Message& message) override;

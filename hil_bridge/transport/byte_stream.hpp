@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 /// A line that cannot be opened, or not be used: what, where, and what to do. Ends a program with exit
 /// code 3.
@@ -43,4 +43,4 @@ class ByteStream {
   virtual std::string name() const = 0;
 };
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 namespace {
 
@@ -204,4 +204,4 @@ bool LinkFault::reopen() {
   return up_;
 }
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

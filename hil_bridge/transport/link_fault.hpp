@@ -10,7 +10,7 @@
 #include "hil_bridge/transport/byte_stream.hpp"
 #include "simulator/random/stream.hpp"
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 /// What goes wrong with one direction of a line. A piece is what one write handed over: here a frame.
 struct DirectionFaults {
@@ -162,4 +162,4 @@ class LinkFault final : public ByteStream {
   bool up_ = true;
 };
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

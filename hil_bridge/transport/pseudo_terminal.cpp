@@ -11,7 +11,7 @@
 
 #include "hil_bridge/transport/serial_settings.hpp"
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 namespace fs = std::filesystem;
 
@@ -86,4 +86,4 @@ std::size_t PseudoTerminal::write(std::span<const std::uint8_t> from) {
   return count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

@@ -5,7 +5,7 @@
 #include "hil_bridge/transport/byte_stream.hpp"
 #include "hil_bridge/transport/file_descriptor.hpp"
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 /// The unit's end of a serial line that exists in this machine only: the other end is a device that any
 /// program may open as a serial port.
@@ -42,4 +42,4 @@ class PseudoTerminal final : public ByteStream {
   FileDescriptor other_;  // kept open, so that a program that closes its end hangs nothing up
 };
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

@@ -13,7 +13,7 @@
 
 #include "hil_bridge/transport/serial_settings.hpp"
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 namespace fs = std::filesystem;
 
@@ -165,4 +165,4 @@ std::string SerialPort::name() const {
   return config_.path + " at " + std::to_string(config_.baud) + " Bd";
 }
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

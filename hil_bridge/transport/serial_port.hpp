@@ -7,7 +7,7 @@
 #include "hil_bridge/transport/byte_stream.hpp"
 #include "hil_bridge/transport/file_descriptor.hpp"
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 /// Which serial line.
 struct SerialPortConfig {
@@ -53,4 +53,4 @@ class SerialPort final : public ByteStream {
 /// The serial ports that this machine has, by their lasting names where they have one.
 std::vector<std::string> serial_ports();
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

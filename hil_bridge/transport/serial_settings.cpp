@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 namespace {
 
@@ -53,4 +53,4 @@ bool set_low_latency(int descriptor) {
   return ioctl(descriptor, TIOCSSERIAL, &settings) == 0;
 }
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 /// Sets a serial line to 8 data bits, no parity, one stop bit, no flow control, bytes as they are.
 /// @param descriptor  of the open line
@@ -17,4 +17,4 @@ int actual_baud(int descriptor);
 /// @return did it agree? Most lines that need no such thing do not
 bool set_low_latency(int descriptor);
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 StreamPair::StreamPair(std::size_t room)
     : near_(to_near_, to_far_, room, "near end"), far_(to_far_, to_near_, room, "far end") {}
@@ -29,4 +29,4 @@ std::size_t StreamPair::End::write(std::span<const std::uint8_t> from) {
   return count;
 }
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

@@ -8,7 +8,7 @@
 
 #include "hil_bridge/transport/byte_stream.hpp"
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 /// Two ends of a line inside one program: what goes in at one end comes out at the other, at once. For tests
 /// and for runs that want bytes without a kernel in between.
@@ -49,4 +49,4 @@ class StreamPair {
   End far_;
 };
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

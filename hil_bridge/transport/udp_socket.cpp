@@ -9,7 +9,7 @@
 #include <cstring>
 #include <memory>
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::string UdpSocket::name() const {
          std::to_string(config_.port);
 }
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

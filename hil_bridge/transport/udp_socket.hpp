@@ -6,7 +6,7 @@
 #include "hil_bridge/transport/byte_stream.hpp"
 #include "hil_bridge/transport/file_descriptor.hpp"
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 
 /// Which two ports. The usual ones: the unit binds 14525 and sends to 14520, the companion the other way
 /// round.
@@ -47,4 +47,4 @@ class UdpSocket final : public ByteStream {
   FileDescriptor file_;
 };
 
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

@@ -18,7 +18,7 @@ constexpr std::size_t kQueueRoom = 256 * 50;  // bytes: a board's queue of 256 p
 
 }  // namespace
 
-ServedFcu::ServedFcu(Fcu& unit, ByteStream& line, std::uint8_t system)
+ServedFcu::ServedFcu(Fcu& unit, transport::ByteStream& line, std::uint8_t system)
     : unit_(unit), line_(line), system_(system) {
   outgoing_.reserve(kQueueRoom + rosflight::kGreatestFrame);
 }

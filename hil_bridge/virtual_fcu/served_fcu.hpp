@@ -16,7 +16,7 @@ class ServedFcu {
   /// @param unit  whose time is let pass by somebody else; outlives this
   /// @param line  outlives this
   /// @param system  its SYS_ID at the start
-  ServedFcu(Fcu& unit, ByteStream& line, std::uint8_t system = 1);
+  ServedFcu(Fcu& unit, transport::ByteStream& line, std::uint8_t system = 1);
 
   /// Hands the unit what has come over the line.
   void take();
@@ -36,7 +36,7 @@ class ServedFcu {
   rosflight::Address sender_of(const Arrival& arrival) const;
 
   Fcu& unit_;
-  ByteStream& line_;
+  transport::ByteStream& line_;
   rosflight::FirmwareDecoder decoder_;
   std::vector<Arrival> said_;
   std::vector<std::uint8_t> outgoing_;

@@ -25,7 +25,7 @@ bool is(const std::exception& error) {
 }  // namespace
 
 Failure failure_of(const std::exception& error) {
-  if (is<hil_bridge::LinkError>(error)) return {kExitHardware, error.what()};
+  if (is<hil_bridge::transport::LinkError>(error)) return {kExitHardware, error.what()};
   if (is<UserError>(error) || is<std::invalid_argument>(error) || is<std::system_error>(error)) {
     return {kExitUsage, error.what()};
   }

@@ -39,7 +39,8 @@ class Findings {
 std::optional<std::string> text_at(const YAML::Node& entry, const char* key, Findings& findings) {
   const YAML::Node node = entry[key];
   if (node && node.IsScalar()) return node.Scalar();
-  findings.add(entry.Mark(), std::string("there is no `") + key + "`; an entry is {name: NAME, type: 6 or 9, value: VALUE}");
+  findings.add(entry.Mark(), std::string("there is no `") + key +
+                                 "`; an entry is {name: NAME, type: 6 or 9, value: VALUE}");
   return std::nullopt;
 }
 
@@ -71,8 +72,9 @@ std::optional<ParameterRecord> record_of(const YAML::Node& entry, Findings& find
   } else if (!kind) {
     findings.add(entry.Mark(), *name + ": type = " + *type + ", must be 6 (whole number) or 9 (real number)");
   } else if (const auto bits = hil_bridge::value_bits(*kind, plain(*value)); !bits) {
-    findings.add(entry.Mark(), *name + " = " + *value + ", must be " +
-                                   (*kind == kIntegerParameter ? "a whole number of 32 bits" : "a real number"));
+    findings.add(entry.Mark(),
+                 *name + " = " + *value + ", must be " +
+                     (*kind == kIntegerParameter ? "a whole number of 32 bits" : "a real number"));
   } else {
     return ParameterRecord{*name, *kind, *bits};
   }
@@ -84,7 +86,8 @@ YAML::Node parsed(const std::filesystem::path& file) {
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw ConfigError(file.string() + ":" + std::to_string(error.mark.line + 1) + ": is not YAML: " + error.msg);
+    throw ConfigError(file.string() + ":" + std::to_string(error.mark.line + 1) +
+                      ": is not YAML: " + error.msg);
   }
 }
 
@@ -109,7 +112,8 @@ std::vector<ParameterRecord> read_parameter_file(const std::filesystem::path& fi
   std::vector<ParameterRecord> records;
   std::set<std::string> names;
   if (!root.IsSequence()) {
-    findings.add(root.Mark(), "is no list of parameters; each line is - {name: NAME, type: 6 or 9, value: VALUE}");
+    findings.add(root.Mark(),
+                 "is no list of parameters; each line is - {name: NAME, type: 6 or 9, value: VALUE}");
   } else {
     for (const YAML::Node& entry : root) {
       const auto record = record_of(entry, findings);

@@ -48,7 +48,7 @@ TEST(SerialFcuTest, KnowsHowMuchTheLineLoses) {
 }
 
 TEST(SerialFcuTest, DropsWholeFramesWhenTheLineTakesNoMore) {
-  StreamPair pair(100);
+  transport::StreamPair pair(100);
   SimulatedUnitGate gate;
   SerialFcu fcu(pair.near(), {.synchronise = false, .download = false}, &gate);
   fcu.advance(Time{});
@@ -70,7 +70,7 @@ TEST(SerialFcuTest, DropsWholeFramesWhenTheLineTakesNoMore) {
 }
 
 TEST(SerialFcuTest, SendsNothingThatActsWithoutAGate) {
-  StreamPair pair;
+  transport::StreamPair pair;
   SerialFcu fcu(pair.near(), {.synchronise = false, .download = false});
   fcu.advance(Time{});
   fcu.send(rosflight::OffboardControl{});
@@ -90,7 +90,7 @@ TEST(SerialFcuTest, SendsNothingThatActsWithoutAGate) {
 }
 
 TEST(SerialFcuTest, AsksToWriteToFlashAsTheUsualCompanionDoes) {
-  StreamPair pair;
+  transport::StreamPair pair;
   SimulatedUnitGate gate;
   SerialFcu fcu(pair.near(), {.synchronise = false, .download = false}, &gate);
   fcu.advance(Time{});
@@ -124,8 +124,8 @@ std::ptrdiff_t open_files() {
 
 TEST(SerialFcuTest, SurvivesAThousandHangUpsAtAnyByte) {
   const std::string path = testing::TempDir() + "ironbird_hang_ups";
-  PseudoTerminal terminal(path);
-  SerialPort port({path, 921600});
+  transport::PseudoTerminal terminal(path);
+  transport::SerialPort port({path, 921600});
   SerialFcu fcu(port);
   std::mt19937 random(8);
   Time now{};

@@ -33,9 +33,9 @@ class DeskUnit final : public Fcu {
 };
 
 /// Loses this share of the frames of each direction, on a line of 921600 Bd.
-inline LinkFaultConfig losing(double share) {
+inline transport::LinkFaultConfig losing(double share) {
   constexpr double kByteRate = 92160.0;
-  DirectionFaults faults;
+  transport::DirectionFaults faults;
   faults.drop = share;
   faults.byte_rate = kByteRate;
   return {faults, {}};
@@ -76,16 +76,16 @@ class DeskLink {
   Time now() const { return now_; }
   DeskUnit& unit() { return unit_; }
   SerialFcu& fcu() { return fcu_; }
-  StreamPair& pair() { return pair_; }
+  transport::StreamPair& pair() { return pair_; }
   const std::vector<Arrival>& inbox() const { return inbox_; }
   const virtual_fcu::Firmware& firmware() { return unit_.host().firmware(); }
 
  private:
   Time now_{};
-  StreamPair pair_;
+  transport::StreamPair pair_;
   DeskUnit unit_;
-  LinkFault there_;
-  LinkFault here_;
+  transport::LinkFault there_;
+  transport::LinkFault here_;
   ServedFcu served_;
   SimulatedUnitGate gate_;
   SerialFcu fcu_;

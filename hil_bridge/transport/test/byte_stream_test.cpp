@@ -19,7 +19,7 @@
 #include "hil_bridge/transport/stream_pair.hpp"
 #include "hil_bridge/transport/udp_socket.hpp"
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 namespace {
 
 namespace fs = std::filesystem;
@@ -292,4 +292,4 @@ TEST(UdpSocketTest, RefusesAHostThatDoesNotExist) {
 }
 
 }  // namespace
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport

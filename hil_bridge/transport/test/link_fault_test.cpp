@@ -8,7 +8,7 @@
 
 #include "hil_bridge/transport/stream_pair.hpp"
 
-namespace ironbird::hil_bridge {
+namespace ironbird::hil_bridge::transport {
 namespace {
 
 using std::chrono::milliseconds;
@@ -190,4 +190,4 @@ TEST(LinkFaultTest, RefusesProbabilitiesBeyondOne) {
 }
 
 }  // namespace
-}  // namespace ironbird::hil_bridge
+}  // namespace ironbird::hil_bridge::transport
