@@ -29,6 +29,7 @@ void ServedFcu::take() {
     bytes_taken_ += count;
     for (const std::uint8_t byte : std::span(bytes).first(count)) {
       if (const auto frame = decoder_.push(byte)) {
+        ++frames_taken_;
         requester_ = frame->sender.system;
         unit_.send(frame->message);
       }

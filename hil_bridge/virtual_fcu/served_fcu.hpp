@@ -26,6 +26,8 @@ class ServedFcu {
 
   /// Has the line taken all that the unit said?
   bool all_given() const { return outgoing_.empty(); }
+  /// Frames that came over the line.
+  std::uint64_t frames_taken() const { return frames_taken_; }
   /// Bytes read from and written to the line.
   std::uint64_t bytes_taken() const { return bytes_taken_; }
   std::uint64_t bytes_given() const { return bytes_given_; }
@@ -43,6 +45,7 @@ class ServedFcu {
   std::uint8_t sequence_ = 0;
   std::uint8_t system_;
   std::uint8_t requester_ = 1;
+  std::uint64_t frames_taken_ = 0;
   std::uint64_t bytes_taken_ = 0;
   std::uint64_t bytes_given_ = 0;
   std::uint64_t dropped_ = 0;

@@ -4,10 +4,11 @@
 
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/text_file.hpp"
-#include "scenarios/record/output_file.hpp"
+#include "scenarios/config/write_file.hpp"
 
 namespace ironbird::scenarios {
 
@@ -82,7 +83,7 @@ std::optional<ParameterRecord> record_of(const YAML::Node& entry, Findings& find
 }
 
 YAML::Node parsed(const std::filesystem::path& file) {
-  const std::string text = read_text_file(file);
+  const std::string text = read_config_text(file, "");
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
@@ -103,7 +104,7 @@ std::string parameter_file_text(const std::vector<ParameterRecord>& records) {
 }
 
 void write_parameter_file(const std::filesystem::path& file, const std::vector<ParameterRecord>& records) {
-  write_whole_file(file, parameter_file_text(records));
+  write_file(file, parameter_file_text(records));
 }
 
 std::vector<ParameterRecord> read_parameter_file(const std::filesystem::path& file) {

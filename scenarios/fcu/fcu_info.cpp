@@ -1,0 +1,44 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "scenarios/app/exit_code.hpp"
+#include "scenarios/app/interrupt.hpp"
+#include "scenarios/fcu/fcu_verb.hpp"
+#include "scenarios/fcu/unit_line.hpp"
+#include "scenarios/fcu/unit_report.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+constexpr double kListening = 2.2;  // s; rates are counted over a whole second
+
+struct InfoArguments {
+  UnitAddress address;
+  bool json = false;
+};
+
+int info(const InfoArguments& arguments) {
+  note_interrupts();
+  UnitOnLine unit(arguments.address);
+  unit.meet();
+  unit.until(kListening, [] { return false; });
+  if (interrupt_requested()) return kExitInterrupted;
+  const std::string where = arguments.address.udp.empty() ? arguments.address.port : arguments.address.udp;
+  const auto report = arguments.json ? unit_report_json : unit_report;
+  std::fputs(report(unit.fcu(), where, unit.now()).c_str(), stdout);
+  return kExitPass;
+}
+
+}  // namespace
+
+FcuWork declare_fcu_info(CLI::App& app) {
+  auto arguments = std::make_shared<InfoArguments>();
+  add_unit_address(app, arguments->address);
+  app.add_flag("--json", arguments->json, "for programs");
+  app.footer("Only asks and listens, for some seconds.\nExample:\n  ironbird fcu info --port /dev/ttyACM0");
+  return [arguments](const autopilot::Modules&) { return info(*arguments); };
+}
+
+}  // namespace ironbird::scenarios

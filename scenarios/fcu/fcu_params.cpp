@@ -1,0 +1,231 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hil_bridge/transport/byte_stream.hpp"
+#include "scenarios/app/exit_code.hpp"
+#include "scenarios/app/interrupt.hpp"
+#include "scenarios/config/config_error.hpp"
+#include "scenarios/config/nearest_name.hpp"
+#include "scenarios/fcu/fcu_verb.hpp"
+#include "scenarios/fcu/parameter_file.hpp"
+#include "scenarios/fcu/unit_line.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+using hil_bridge::ParameterDifference;
+using hil_bridge::ParameterOutcome;
+using hil_bridge::ParameterRecord;
+
+constexpr int kPasses = 3;             // a value may change others: a canned mixer rewrites 220
+constexpr double kSetPatience = 60.0;  // s, for a whole file over a bad line
+constexpr double kSettle = 0.5;        // s in which the unit says what else has changed
+
+struct ParamsArguments {
+  UnitAddress address;
+  std::string deed;
+  std::vector<std::string> words;
+  bool keep = false;
+};
+
+std::string value_of(const std::optional<ParameterRecord>& record) {
+  return record ? hil_bridge::value_text(*record) : "(none)";
+}
+
+void print(const std::vector<ParameterDifference>& differences, const char* one, const char* other) {
+  for (const ParameterDifference& difference : differences) {
+    std::printf("%-16s %s %s, %s %s\n", difference.name.c_str(), one, value_of(difference.one).c_str(), other,
+                value_of(difference.other).c_str());
+  }
+}
+
+/// Of the file's entries those that the unit has otherwise. What the file does not name is nobody's business.
+std::vector<ParameterDifference> wanted_changes(const std::vector<ParameterRecord>& file, UnitOnLine& unit) {
+  std::vector<ParameterDifference> changes;
+  for (const ParameterDifference& difference :
+       hil_bridge::differences(file, unit.connection().parameters().known())) {
+    if (difference.one) changes.push_back(difference);
+  }
+  return changes;
+}
+
+std::string unknown(const std::string& name, UnitOnLine& unit) {
+  std::vector<std::string> names;
+  for (const ParameterRecord& record : unit.connection().parameters().known()) names.push_back(record.name);
+  const std::string nearest = nearest_name(name, names);
+  return name + ": the unit has no such parameter" + (nearest.empty() ? "" : "; did you mean " + nearest + "?");
+}
+
+ParameterRecord record_named(const std::string& name, UnitOnLine& unit) {
+  if (const auto record = unit.connection().parameters().find(name)) return *record;
+  throw ConfigError(unknown(name, unit));
+}
+
+/// Everything of a file that this unit cannot take, told before anything is set.
+void check_fits(const std::vector<ParameterRecord>& file, UnitOnLine& unit) {
+  std::vector<std::string> findings;
+  for (const ParameterRecord& wanted : file) {
+    const auto there = unit.connection().parameters().find(wanted.name);
+    if (!there) {
+      findings.push_back(unknown(wanted.name, unit));
+    } else if (there->type != wanted.type) {
+      findings.push_back(wanted.name + ": type = " + std::to_string(wanted.type) + ", the unit has type " +
+                         std::to_string(there->type));
+    }
+  }
+  if (!findings.empty()) throw ConfigError(findings);
+}
+
+/// Sets everything, sees what that changed besides, and sets again. @return what is still different
+std::vector<ParameterDifference> make_equal(const std::vector<ParameterRecord>& file, UnitOnLine& unit) {
+  hil_bridge::ParameterClient& client = unit.connection().parameters();
+  for (int pass = 0; pass < kPasses && !interrupt_requested(); ++pass) {
+    const auto changes = wanted_changes(file, unit);
+    if (changes.empty()) break;
+    if (!unit.until(1.0, [&] { return unit.connection().disarmed(unit.now()); })) {
+      throw hil_bridge::transport::LinkError(
+          "the unit does not report that it is disarmed; nothing was set. Disarm it first");
+    }
+    for (const ParameterDifference& change : changes) client.set(*change.one);
+    unit.until(kSetPatience, [&] { return client.idle(); });
+    unit.until(kSettle, [] { return false; });
+  }
+  client.start_download(unit.now());
+  unit.until(unit.patience() + kSetPatience, [&] { return client.progress().complete; });
+  return wanted_changes(file, unit);
+}
+
+int keep_in_flash(UnitOnLine& unit) {
+  hil_bridge::ParameterClient& client = unit.connection().parameters();
+  client.write_to_flash();
+  unit.until(kSetPatience, [&] { return client.write_outcome() != ParameterOutcome::kPending; });
+  if (client.write_outcome() == ParameterOutcome::kDone) return kExitPass;
+  std::fputs("the values are set, but not kept: the unit did not confirm that it wrote them to flash\n", stderr);
+  return kExitHardware;
+}
+
+int set_all(const std::vector<ParameterRecord>& wanted, const ParamsArguments& arguments, UnitOnLine& unit) {
+  check_fits(wanted, unit);
+  const auto left = make_equal(wanted, unit);
+  if (interrupt_requested()) return kExitInterrupted;
+  if (!left.empty()) {
+    print(left, "wanted", "the unit has");
+    std::fprintf(stderr, "%zu of %zu parameters are not as wanted\n", left.size(), wanted.size());
+    return kExitHardware;
+  }
+  std::fprintf(stderr, "%zu parameters are as wanted, read back from the unit\n", wanted.size());
+  if (arguments.keep) return keep_in_flash(unit);
+  if (unit.connection().parameters().unsaved()) {
+    std::fputs("not kept over a restart; --keep writes them to the unit's flash\n", stderr);
+  }
+  return kExitPass;
+}
+
+int get(const ParamsArguments& arguments, UnitOnLine& unit) {
+  std::vector<ParameterRecord> records;
+  for (const std::string& name : arguments.words) records.push_back(record_named(name, unit));
+  if (arguments.words.empty()) records = unit.connection().parameters().known();
+  for (const ParameterRecord& record : records) {
+    std::printf("%-16s %s\n", record.name.c_str(), hil_bridge::value_text(record).c_str());
+  }
+  return kExitPass;
+}
+
+int set(const ParamsArguments& arguments, UnitOnLine& unit) {
+  std::vector<ParameterRecord> wanted;
+  for (std::size_t k = 0; k + 1 < arguments.words.size(); k += 2) {
+    ParameterRecord record = record_named(arguments.words[k], unit);
+    const auto bits = hil_bridge::value_bits(record.type, arguments.words[k + 1]);
+    if (!bits) {
+      throw ConfigError(record.name + " = " + arguments.words[k + 1] + ", must be " +
+                        (record.type == hil_bridge::kIntegerParameter ? "a whole number" : "a real number"));
+    }
+    record.bits = *bits;
+    wanted.push_back(record);
+  }
+  return set_all(wanted, arguments, unit);
+}
+
+int compare(const ParamsArguments& arguments, UnitOnLine& unit, bool all) {
+  const auto file = read_parameter_file(arguments.words[0]);
+  const auto found = all ? hil_bridge::differences(file, unit.connection().parameters().known())
+                         : wanted_changes(file, unit);
+  print(found, "file", "unit");
+  std::fprintf(stderr, "%zu difference%s\n", found.size(), found.size() == 1 ? "" : "s");
+  return found.empty() ? kExitPass : kExitFail;
+}
+
+int save(const ParamsArguments& arguments, UnitOnLine& unit) {
+  write_parameter_file(arguments.words[0], unit.connection().parameters().known());
+  std::fprintf(stderr, "%s: %d parameters\n", arguments.words[0].c_str(), unit.connection().parameters().progress().known);
+  return kExitPass;
+}
+
+/// One thing to do with parameters, and how many words it needs.
+struct Deed {
+  const char* name;
+  const char* words;
+  bool (*fits)(std::size_t);
+  int (*work)(const ParamsArguments&, UnitOnLine&);
+};
+
+const Deed kDeeds[] = {
+    {"get", "[NAME...]", [](std::size_t) { return true; }, get},
+    {"set", "NAME VALUE [NAME VALUE...]", [](std::size_t n) { return n >= 2 && n % 2 == 0; }, set},
+    {"save", "FILE", [](std::size_t n) { return n == 1; }, save},
+    {"load", "FILE", [](std::size_t n) { return n == 1; },
+     [](const ParamsArguments& arguments, UnitOnLine& unit) {
+       return set_all(read_parameter_file(arguments.words[0]), arguments, unit);
+     }},
+    {"diff", "FILE", [](std::size_t n) { return n == 1; },
+     [](const ParamsArguments& arguments, UnitOnLine& unit) { return compare(arguments, unit, true); }},
+    {"verify", "FILE", [](std::size_t n) { return n == 1; },
+     [](const ParamsArguments& arguments, UnitOnLine& unit) { return compare(arguments, unit, false); }},
+};
+
+const Deed& deed_named(const ParamsArguments& arguments) {
+  std::string all;
+  for (const Deed& deed : kDeeds) {
+    all += (all.empty() ? "" : ", ") + std::string(deed.name);
+    if (arguments.deed != deed.name) continue;
+    if (deed.fits(arguments.words.size())) return deed;
+    throw ConfigError(std::string("write: ironbird fcu params ") + deed.name + " " + deed.words);
+  }
+  throw ConfigError(arguments.deed + ": fcu params does not know this; there are: " + all);
+}
+
+int params(const ParamsArguments& arguments) {
+  note_interrupts();
+  const Deed& deed = deed_named(arguments);
+  // A file that cannot be read is told before the unit is waited for.
+  const bool reads = arguments.deed == "load" || arguments.deed == "diff" || arguments.deed == "verify";
+  if (reads) read_parameter_file(arguments.words[0]);
+  UnitOnLine unit(arguments.address);
+  unit.meet();
+  return deed.work(arguments, unit);
+}
+
+}  // namespace
+
+FcuWork declare_fcu_params(CLI::App& app) {
+  auto arguments = std::make_shared<ParamsArguments>();
+  add_unit_address(app, arguments->address);
+  app.add_option("deed", arguments->deed, "get, set, save, load, diff or verify")->required();
+  app.add_option("words", arguments->words, "names, values, or a file");
+  app.add_flag("--keep", arguments->keep, "after set and load: write to the unit's flash");
+  app.footer(
+      "set and load are done when the unit has said every value back; only while it is disarmed. verify looks at what\n"
+      "the file names, diff at everything. Files are YAML: - {name: NAME, type: 6 or 9, value: VALUE}\n"
+      "Examples:\n"
+      "  ironbird fcu params --port /dev/ttyACM0 get PID_ROLL_RATE_P RC_MAX_THR\n"
+      "  ironbird fcu params --port /dev/ttyACM0 set RC_MAX_THR 0.9 --keep\n"
+      "  ironbird fcu params --port /dev/ttyACM0 save before.yaml\n"
+      "  ironbird fcu params --port /dev/ttyACM0 verify before.yaml");
+  return [arguments](const autopilot::Modules&) { return params(*arguments); };
+}
+
+}  // namespace ironbird::scenarios

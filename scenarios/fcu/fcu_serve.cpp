@@ -1,0 +1,134 @@
+#include <time.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "hil_bridge/transport/pseudo_terminal.hpp"
+#include "hil_bridge/transport/udp_socket.hpp"
+#include "scenarios/app/exit_code.hpp"
+#include "scenarios/app/interrupt.hpp"
+#include "scenarios/app/scenario_arguments.hpp"
+#include "scenarios/app/terminal.hpp"
+#include "scenarios/bench/scenario_loader.hpp"
+#include "scenarios/config/config_error.hpp"
+#include "scenarios/fcu/fcu_verb.hpp"
+#include "scenarios/fcu/serve.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+using hil_bridge::Time;
+using hil_bridge::transport::ByteStream;
+using hil_bridge::transport::PseudoTerminal;
+using hil_bridge::transport::UdpConfig;
+using hil_bridge::transport::UdpSocket;
+
+// So far behind the clock there is no catching up: the clock is set anew and the loss told.
+constexpr Time kGivenUp = std::chrono::milliseconds(200);
+constexpr Time kTellPeriod = std::chrono::seconds(1);
+
+struct ServeArguments {
+  std::string scenario;
+  std::vector<std::string> settings;
+  std::string pty;
+  int udp = 0;
+  double duration = 0.0;  // s
+};
+
+/// Where others find it, and what to type there.
+struct Line {
+  std::unique_ptr<ByteStream> stream;
+  std::string how_to_reach;
+};
+
+Line open_line(const ServeArguments& arguments) {
+  if (arguments.pty.empty() == (arguments.udp == 0)) {
+    throw ConfigError("say how others reach the unit: either --pty LINK or --udp PORT");
+  }
+  if (arguments.udp != 0) {
+    UdpConfig config;
+    config.local_port = arguments.udp;
+    config.port = 14520;
+    auto socket = std::make_unique<UdpSocket>(config);
+    socket->open();
+    return {std::move(socket), "--udp localhost:" + std::to_string(arguments.udp)};
+  }
+  return {std::make_unique<PseudoTerminal>(arguments.pty), "--port " + arguments.pty};
+}
+
+Time clock_now() {
+  return std::chrono::steady_clock::now().time_since_epoch();
+}
+
+void sleep_until(Time when) {
+  const timespec at{when.count() / 1'000'000'000, when.count() % 1'000'000'000};
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
+}
+
+void tell(const ServedUnit& unit, Time lost) {
+  const simulator::Truth& truth = unit.world().truth();
+  std::fprintf(stderr, "\r%8.1f s  %s  height %6.2f m  %llu kB out  %llu kB in%s", 1e-9 * static_cast<double>(unit.now().count()),
+               unit.unit().firmware().arming().armed() ? "ARMED   " : "disarmed", -truth.p_NB_N.z(),
+               static_cast<unsigned long long>(unit.served().bytes_given() / 1000),
+               static_cast<unsigned long long>(unit.served().bytes_taken() / 1000),
+               lost > Time::zero() ? "  (this machine is too slow)" : "");
+}
+
+int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
+  note_interrupts();
+  const LoadedScenario loaded =
+      load_scenario(arguments.scenario, {split_settings(arguments.settings), std::nullopt}, modules);
+  const Line line = open_line(arguments);
+  ServedUnit unit(loaded.scenario, *line.stream);
+  std::fprintf(stderr, "serving %s; connect with: ironbird fcu info %s; Ctrl-C ends\n", loaded.scenario.vehicle_folder.c_str(),
+               line.how_to_reach.c_str());
+  const bool interactive = Terminal::of_standard_error().interactive;
+  const Time end = std::chrono::duration_cast<Time>(std::chrono::duration<double>(arguments.duration));
+  Time next = clock_now();
+  Time told{};
+  Time lost{};
+  while (!interrupt_requested() && (end == Time::zero() || unit.now() < end)) {
+    unit.tick();
+    next += unit.period();
+    const Time behind = clock_now() - next;
+    if (behind > kGivenUp) {
+      lost += behind;
+      next += behind;
+    }
+    if (interactive && unit.now() - told >= kTellPeriod) {
+      tell(unit, lost);
+      told = unit.now();
+    }
+    sleep_until(next);
+  }
+  if (interactive) std::fputs("\n", stderr);
+  if (lost > Time::zero()) {
+    std::fprintf(stderr, "this machine was too slow: the unit's time fell %.1f s behind\n", 1e-9 * static_cast<double>(lost.count()));
+    return kExitInconclusive;
+  }
+  return kExitPass;
+}
+
+}  // namespace
+
+FcuWork declare_fcu_serve(CLI::App& app) {
+  auto arguments = std::make_shared<ServeArguments>();
+  app.add_option("scenario", arguments->scenario, "vehicle, world, parameters and pilot of the unit")->required();
+  app.add_option("--set", arguments->settings, "path=value, changes the scenario")->allow_extra_args(false);
+  app.add_option("--pty", arguments->pty, "make a pseudo-terminal and this link to it");
+  app.add_option("--udp", arguments->udp, "have this UDP port, and send to port 14520")->check(CLI::Range(1, 65535));
+  app.add_option("--duration", arguments->duration, "end after so many seconds")->check(CLI::Range(0.1, 86400.0));
+  app.footer(
+      "A virtual unit that others meet as they would meet a real one, in real time: streams and rates, texts, parameters,\n"
+      "and the firmware's oddities. The pilot of the scenario arms when somebody has been there for `pilot.arm_at`.\n"
+      "Examples:\n"
+      "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --pty /tmp/unit\n"
+      "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --udp 14525");
+  return [arguments](const autopilot::Modules& modules) { return serve(*arguments, modules); };
+}
+
+}  // namespace ironbird::scenarios

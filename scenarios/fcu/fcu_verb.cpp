@@ -1,0 +1,46 @@
+#include "scenarios/fcu/fcu_verb.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <memory>
+
+#include "scenarios/app/command_line.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+struct SubVerb {
+  const char* name;
+  const char* summary;
+  FcuWork (*declare)(CLI::App&);
+};
+
+constexpr std::array<SubVerb, 3> kSubVerbs = {{
+    {"info", "say what is connected, and how well", declare_fcu_info},
+    {"params", "get, set, save, load, compare its parameters", declare_fcu_params},
+    {"serve", "be a unit, for others to connect to", declare_fcu_serve},
+}};
+
+}  // namespace
+
+Verb fcu_verb() {
+  return {"fcu", "talk to a flight-control unit, or be one", [](CLI::App& app) -> FcuWork {
+            app.require_subcommand(1);
+            app.footer(
+                "No motor command ever leaves through this verb; parameters are set only while the unit says that\n"
+                "it is disarmed.\n"
+                "Examples:\n"
+                "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --pty /tmp/unit\n"
+                "  ironbird fcu info --port /tmp/unit\n"
+                "  ironbird fcu params --port /dev/ttyACM0 save before.yaml");
+            auto chosen = std::make_shared<FcuWork>();
+            for (const SubVerb& sub : kSubVerbs) {
+              CLI::App* command = app.add_subcommand(sub.name, sub.summary);
+              command->callback([chosen, work = sub.declare(*command)] { *chosen = work; });
+            }
+            return [chosen](const autopilot::Modules& modules) { return (*chosen)(modules); };
+          }};
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,88 @@
+#include "scenarios/fcu/parameter_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "scenarios/config/config_error.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+using hil_bridge::kIntegerParameter;
+using hil_bridge::kRealParameter;
+using hil_bridge::ParameterRecord;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ParameterFileTest : public testing::Test {
+ protected:
+  std::filesystem::path written(const std::string& text) const {
+    std::ofstream(file_) << text;
+    return file_;
+  }
+  std::vector<std::string> findings(const std::string& text) const {
+    try {
+      read_parameter_file(written(text));
+    } catch (const ConfigError& error) {
+      return error.findings();
+    }
+    return {};
+  }
+  const std::filesystem::path file_ =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string("ironbird_parameters_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".yaml");
+};
+
+TEST_F(ParameterFileTest, GivesEveryValueBackBitForBit) {
+  std::mt19937 random(1);
+  std::vector<ParameterRecord> records;
+  for (int k = 0; k < 2000; ++k) {
+    records.push_back({"P" + std::to_string(k), k % 2 == 0 ? kIntegerParameter : kRealParameter,
+                       static_cast<std::uint32_t>(random())});
+  }
+  write_parameter_file(file_, records);
+  EXPECT_EQ(read_parameter_file(file_), records);
+}
+
+TEST_F(ParameterFileTest, ReadsWhatTheUsualCompanionWrites) {
+  const auto records = read_parameter_file(written(
+      "- {name: MOTOR_RESISTANCE, type: 9, value: 0.0419999994}\n"
+      "- {type: 6, name: RC_ARM_CHN, value: -1}\n"
+      "-\n  name: FAILSAFE_THR\n  type: 9\n  value: -1\n"));
+  ASSERT_EQ(records.size(), 3U);
+  EXPECT_EQ(hil_bridge::value_text(records[0]), "0.042");
+  EXPECT_EQ(records[1].bits, 0xFFFFFFFFU);
+  EXPECT_EQ(records[2].name, "FAILSAFE_THR");
+  EXPECT_EQ(hil_bridge::value_text(records[2]), "-1");
+}
+
+TEST_F(ParameterFileTest, TellsEveryMistakeWithItsLine) {
+  const std::string at = file_.string() + ":";
+  EXPECT_THAT(findings("- {name: A, type: 6, value: 1.5}\n"
+                       "- {name: B, type: 7, value: 1}\n"
+                       "- {name: C, type: 9}\n"
+                       "- 5\n"
+                       "- {name: ABCDEFGHIJKLMNOPQ, type: 6, value: 1}\n"
+                       "- {name: D, type: 9, value: fast}\n"
+                       "- {name: E, type: 6, value: 1}\n"
+                       "- {name: E, type: 6, value: 2}\n"),
+              ElementsAre(at + "1: A = 1.5, must be a whole number of 32 bits",
+                          at + "2: B: type = 7, must be 6 (whole number) or 9 (real number)",
+                          at + "3: there is no `value`; an entry is {name: NAME, type: 6 or 9, value: VALUE}",
+                          at + "4: is no entry; an entry is {name: NAME, type: 6 or 9, value: VALUE}",
+                          at + "5: name = \"ABCDEFGHIJKLMNOPQ\", must have 1 to 16 letters",
+                          at + "6: D = fast, must be a real number", at + "8: E: comes twice"));
+}
+
+TEST_F(ParameterFileTest, RefusesWhatIsNoYamlAndWhatIsNoList) {
+  EXPECT_THAT(findings("- {name: A, type: 6\n- b"), ElementsAre(HasSubstr(": is not YAML: ")));
+  EXPECT_THAT(findings("name: A\n"), ElementsAre(HasSubstr(":1: is no list of parameters")));
+  EXPECT_THAT(findings(""), ElementsAre(HasSubstr("is no list of parameters")));
+}
+
+}  // namespace
+}  // namespace ironbird::scenarios

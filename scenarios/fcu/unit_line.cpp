@@ -1,0 +1,125 @@
+#include "scenarios/fcu/unit_line.hpp"
+
+#include <poll.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <utility>
+
+#include "hil_bridge/transport/serial_port.hpp"
+#include "hil_bridge/transport/udp_socket.hpp"
+#include "scenarios/app/interrupt.hpp"
+#include "scenarios/config/config_error.hpp"
+
+namespace ironbird::scenarios {
+
+using hil_bridge::ConnectionState;
+using hil_bridge::transport::ByteStream;
+using hil_bridge::transport::LinkError;
+using hil_bridge::transport::SerialPort;
+using hil_bridge::transport::UdpConfig;
+using hil_bridge::transport::UdpSocket;
+
+namespace {
+
+constexpr int kLook = 2;  // ms between looks at a line on which nothing happens
+
+UdpConfig udp_config(const std::string& text) {
+  UdpConfig config;
+  const std::size_t colon = text.rfind(':');
+  config.host = text.substr(0, colon);
+  if (colon != std::string::npos) {
+    try {
+      std::size_t read = 0;
+      config.port = std::stoi(text.substr(colon + 1), &read);
+      if (read + colon + 1 != text.size()) config.port = 0;
+    } catch (const std::exception&) {
+      config.port = 0;
+    }
+  }
+  constexpr int kGreatestPort = 65535;
+  if (config.host.empty() || config.port < 1 || config.port > kGreatestPort) {
+    throw ConfigError("--udp = " + text + ": must be HOST or HOST:PORT, for example localhost:14525");
+  }
+  return config;
+}
+
+}  // namespace
+
+void add_unit_address(CLI::App& app, UnitAddress& address) {
+  app.add_option("--port", address.port, "serial port of the unit, as /dev/ttyACM0");
+  app.add_option("--baud", address.baud, "rate of the port, Bd")->capture_default_str();
+  app.add_option("--udp", address.udp, "unit behind UDP instead, HOST[:PORT]; this side has port 14520");
+  app.add_option("--patience", address.patience, "how long to wait for the unit, s")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 3600.0));
+}
+
+std::unique_ptr<ByteStream> open_line(const UnitAddress& address) {
+  if (address.port.empty() == address.udp.empty()) {
+    throw ConfigError("say where the unit is: either --port DEVICE or --udp HOST[:PORT]");
+  }
+  if (!address.udp.empty()) {
+    auto socket = std::make_unique<UdpSocket>(udp_config(address.udp));
+    socket->open();
+    return socket;
+  }
+  auto port = std::make_unique<SerialPort>(hil_bridge::transport::SerialPortConfig{address.port, address.baud});
+  port->open();
+  return port;
+}
+
+UnitOnLine::UnitOnLine(const UnitAddress& address)
+    : address_(address), line_(open_line(address)), gate_({}), fcu_(*line_, {}, &gate_) {}
+
+hil_bridge::Time UnitOnLine::now() const {
+  return std::chrono::steady_clock::now().time_since_epoch();
+}
+
+void UnitOnLine::step() {
+  const hil_bridge::Time time = now();
+  const hil_bridge::Connection& connection = fcu_.connection();
+  hil_bridge::InterlockInputs in;
+  in.unit_armed = connection.armed(time);
+  in.unit_disarmed = connection.disarmed(time);
+  gate_.step(in, time);
+  fcu_.advance(time);
+  heard_.clear();
+  fcu_.receive(heard_);
+  messages_ += heard_.size();
+}
+
+bool UnitOnLine::until(double seconds, const std::function<bool()>& done) {
+  const auto end = now() + std::chrono::duration_cast<hil_bridge::Time>(std::chrono::duration<double>(seconds));
+  for (;;) {
+    step();
+    if (done()) return true;
+    if (now() >= end || interrupt_requested()) return false;
+    pollfd state{line_->descriptor(), POLLIN, 0};
+    poll(&state, 1, kLook);
+  }
+}
+
+void UnitOnLine::meet() {
+  const hil_bridge::Connection& connection = fcu_.connection();
+  const bool met = until(address_.patience, [&] {
+    // An armed unit does not tell its version, but may be looked at.
+    const bool armed = connection.armed(now()) && connection.parameters().progress().complete;
+    return armed || connection.state() == ConnectionState::kReady || connection.state() == ConnectionState::kRefused;
+  });
+  const std::string where = line_->name() + ": ";
+  if (connection.state() == ConnectionState::kRefused) throw LinkError(where + connection.refusal());
+  if (met) return;
+  const hil_bridge::LinkHealth link = health();
+  if (messages_ == 0) {
+    throw LinkError(where + (link.foreign + link.corrupted > 0
+                                 ? "bytes come, but no frame of ROSflight 2.0; is the baud rate right, and is this the unit?"
+                                 : "nothing is heard; is the unit powered, and is this its port?"));
+  }
+  const auto& progress = connection.parameters().progress();
+  throw LinkError(where + "it is heard, but in " + std::to_string(static_cast<int>(address_.patience)) + " s it told " +
+                  (connection.version().empty() ? "no version and " : "its version and ") +
+                  std::to_string(progress.known) + " of its parameters; try again with a greater --patience");
+}
+
+}  // namespace ironbird::scenarios

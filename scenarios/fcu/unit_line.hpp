@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "hil_bridge/interlock/interlock.hpp"
+#include "hil_bridge/serial_fcu/serial_fcu.hpp"
+#include "hil_bridge/transport/byte_stream.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace ironbird::scenarios {
+
+/// Where a unit is, as the command line says it.
+struct UnitAddress {
+  std::string port;
+  int baud = 921600;
+  std::string udp;
+  double patience = 5.0;  // s
+};
+
+void add_unit_address(CLI::App& app, UnitAddress& address);
+
+/// The line to a unit, opened. @throws ConfigError for an address that is none, transport::LinkError for a line
+/// that cannot be opened
+std::unique_ptr<hil_bridge::transport::ByteStream> open_line(const UnitAddress& address);
+
+/// A unit on the desk, talked to in real time: asked, and set while it is disarmed. No motor command ever leaves.
+class UnitOnLine {
+ public:
+  /// @throws as open_line
+  explicit UnitOnLine(const UnitAddress& address);
+
+  /// Talks until `done`, for at most so long, or until somebody interrupts. @return is it done?
+  bool until(double seconds, const std::function<bool()>& done);
+  /// Talks until version and parameters are known. @throws transport::LinkError saying what was heard instead
+  void meet();
+
+  hil_bridge::SerialFcu& fcu() { return fcu_; }
+  hil_bridge::Connection& connection() { return fcu_.connection(); }
+  hil_bridge::Time now() const;
+  double patience() const { return address_.patience; }
+  hil_bridge::LinkHealth health() const { return fcu_.health(now()); }
+
+ private:
+  void step();
+
+  UnitAddress address_;
+  std::unique_ptr<hil_bridge::transport::ByteStream> line_;
+  hil_bridge::Interlock gate_;
+  hil_bridge::SerialFcu fcu_;
+  std::vector<hil_bridge::Arrival> heard_;
+  std::uint64_t messages_ = 0;
+};
+
+}  // namespace ironbird::scenarios
