@@ -23,7 +23,7 @@ struct InterlockConfig {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("profile", self.profile, "", "what a kill sends");
+    visit("profile", self.profile, "1", "what a kill sends");
     visit("limits", self.limits, "", "what a motor command may be");
     visit("unit_timeout", self.unit_timeout, "ns", "OFFBOARD_TIMEOUT of the unit");
   }

@@ -41,7 +41,7 @@ struct VirtualFcuConfig {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("kind", self.kind, "", "how it is reached");
+    visit("kind", self.kind, "1", "how it is reached: virtual or virtual_serial");
     visit("parameters", self.parameters, "", "firmware parameters that are not at their default");
     visit("tick", self.tick, "ns", "period of the IMU and of the control loop, whole microseconds", 1e5, 2e7);
     visit("rc_rate", self.rc_rate, "Hz",

@@ -57,7 +57,8 @@ std::string unknown(const std::string& name, UnitOnLine& unit) {
   std::vector<std::string> names;
   for (const ParameterRecord& record : unit.connection().parameters().known()) names.push_back(record.name);
   const std::string nearest = nearest_name(name, names);
-  return name + ": the unit has no such parameter" + (nearest.empty() ? "" : "; did you mean " + nearest + "?");
+  return name + ": the unit has no such parameter" +
+         (nearest.empty() ? "" : "; did you mean " + nearest + "?");
 }
 
 ParameterRecord record_named(const std::string& name, UnitOnLine& unit) {
@@ -104,7 +105,8 @@ int keep_in_flash(UnitOnLine& unit) {
   client.write_to_flash();
   unit.until(kSetPatience, [&] { return client.write_outcome() != ParameterOutcome::kPending; });
   if (client.write_outcome() == ParameterOutcome::kDone) return kExitPass;
-  std::fputs("the values are set, but not kept: the unit did not confirm that it wrote them to flash\n", stderr);
+  std::fputs("the values are set, but not kept: the unit did not confirm that it wrote them to flash\n",
+             stderr);
   return kExitHardware;
 }
 
@@ -117,7 +119,8 @@ int set_all(const std::vector<ParameterRecord>& wanted, const ParamsArguments& a
     std::fprintf(stderr, "%zu of %zu parameters are not as wanted\n", left.size(), wanted.size());
     return kExitHardware;
   }
-  std::fprintf(stderr, "%zu parameters are as wanted, read back from the unit\n", wanted.size());
+  std::fprintf(stderr, "as wanted, read back from the unit: %zu parameter%s\n", wanted.size(),
+               wanted.size() == 1 ? "" : "s");
   if (arguments.keep) return keep_in_flash(unit);
   if (unit.connection().parameters().unsaved()) {
     std::fputs("not kept over a restart; --keep writes them to the unit's flash\n", stderr);
@@ -161,7 +164,8 @@ int compare(const ParamsArguments& arguments, UnitOnLine& unit, bool all) {
 
 int save(const ParamsArguments& arguments, UnitOnLine& unit) {
   write_parameter_file(arguments.words[0], unit.connection().parameters().known());
-  std::fprintf(stderr, "%s: %d parameters\n", arguments.words[0].c_str(), unit.connection().parameters().progress().known);
+  std::fprintf(stderr, "%s: %d parameters\n", arguments.words[0].c_str(),
+               unit.connection().parameters().progress().known);
   return kExitPass;
 }
 
@@ -218,7 +222,8 @@ FcuWork declare_fcu_params(CLI::App& app) {
   app.add_option("words", arguments->words, "names, values, or a file");
   app.add_flag("--keep", arguments->keep, "after set and load: write to the unit's flash");
   app.footer(
-      "set and load are done when the unit has said every value back; only while it is disarmed. verify looks at what\n"
+      "set and load are done when the unit has said every value back; only while it is disarmed. verify "
+      "looks at what\n"
       "the file names, diff at everything. Files are YAML: - {name: NAME, type: 6 or 9, value: VALUE}\n"
       "Examples:\n"
       "  ironbird fcu params --port /dev/ttyACM0 get PID_ROLL_RATE_P RC_MAX_THR\n"

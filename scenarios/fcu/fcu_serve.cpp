@@ -71,7 +71,8 @@ void sleep_until(Time when) {
 
 void tell(const ServedUnit& unit, Time lost) {
   const simulator::Truth& truth = unit.world().truth();
-  std::fprintf(stderr, "\r%8.1f s  %s  height %6.2f m  %llu kB out  %llu kB in%s", 1e-9 * static_cast<double>(unit.now().count()),
+  std::fprintf(stderr, "\r%8.1f s  %s  height %6.2f m  %llu kB out  %llu kB in%s",
+               1e-9 * static_cast<double>(unit.now().count()),
                unit.unit().firmware().arming().armed() ? "ARMED   " : "disarmed", -truth.p_NB_N.z(),
                static_cast<unsigned long long>(unit.served().bytes_given() / 1000),
                static_cast<unsigned long long>(unit.served().bytes_taken() / 1000),
@@ -84,8 +85,8 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
       load_scenario(arguments.scenario, {split_settings(arguments.settings), std::nullopt}, modules);
   const Line line = open_line(arguments);
   ServedUnit unit(loaded.scenario, *line.stream);
-  std::fprintf(stderr, "serving %s; connect with: ironbird fcu info %s; Ctrl-C ends\n", loaded.scenario.vehicle_folder.c_str(),
-               line.how_to_reach.c_str());
+  std::fprintf(stderr, "serving %s; connect with: ironbird fcu info %s; Ctrl-C ends\n",
+               loaded.scenario.vehicle_folder.c_str(), line.how_to_reach.c_str());
   const bool interactive = Terminal::of_standard_error().interactive;
   const Time end = std::chrono::duration_cast<Time>(std::chrono::duration<double>(arguments.duration));
   Time next = clock_now();
@@ -107,7 +108,8 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
   }
   if (interactive) std::fputs("\n", stderr);
   if (lost > Time::zero()) {
-    std::fprintf(stderr, "this machine was too slow: the unit's time fell %.1f s behind\n", 1e-9 * static_cast<double>(lost.count()));
+    std::fprintf(stderr, "this machine was too slow: the unit's time fell %.1f s behind\n",
+                 1e-9 * static_cast<double>(lost.count()));
     return kExitInconclusive;
   }
   return kExitPass;
@@ -117,14 +119,19 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
 
 FcuWork declare_fcu_serve(CLI::App& app) {
   auto arguments = std::make_shared<ServeArguments>();
-  app.add_option("scenario", arguments->scenario, "vehicle, world, parameters and pilot of the unit")->required();
+  app.add_option("scenario", arguments->scenario, "vehicle, world, parameters and pilot of the unit")
+      ->required();
   app.add_option("--set", arguments->settings, "path=value, changes the scenario")->allow_extra_args(false);
   app.add_option("--pty", arguments->pty, "make a pseudo-terminal and this link to it");
-  app.add_option("--udp", arguments->udp, "have this UDP port, and send to port 14520")->check(CLI::Range(1, 65535));
-  app.add_option("--duration", arguments->duration, "end after so many seconds")->check(CLI::Range(0.1, 86400.0));
+  app.add_option("--udp", arguments->udp, "have this UDP port, and send to port 14520")
+      ->check(CLI::Range(1, 65535));
+  app.add_option("--duration", arguments->duration, "end after so many seconds")
+      ->check(CLI::Range(0.1, 86400.0));
   app.footer(
-      "A virtual unit that others meet as they would meet a real one, in real time: streams and rates, texts, parameters,\n"
-      "and the firmware's oddities. The pilot of the scenario arms when somebody has been there for `pilot.arm_at`.\n"
+      "A virtual unit that others meet as they would meet a real one, in real time: streams and rates, "
+      "texts, parameters,\n"
+      "and the firmware's oddities. The pilot of the scenario arms when somebody has been there for "
+      "`pilot.arm_at`.\n"
       "Examples:\n"
       "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --pty /tmp/unit\n"
       "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --udp 14525");

@@ -28,7 +28,8 @@ Verb fcu_verb() {
   return {"fcu", "talk to a flight-control unit, or be one", [](CLI::App& app) -> FcuWork {
             app.require_subcommand(1);
             app.footer(
-                "No motor command ever leaves through this verb; parameters are set only while the unit says that\n"
+                "No motor command ever leaves through this verb; parameters are set only while the unit says "
+                "that\n"
                 "it is disarmed.\n"
                 "Examples:\n"
                 "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --pty /tmp/unit\n"

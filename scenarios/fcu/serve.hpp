@@ -12,8 +12,9 @@
 
 namespace ironbird::scenarios {
 
-/// A virtual unit with its own vehicle and world, for somebody at the other end of a line. Its pilot waits for that somebody
-/// to be there: the clock of the scenario's `[pilot]` begins with the first frame that comes.
+/// A virtual unit with its own vehicle and world, for somebody at the other end of a line. Its pilot waits
+/// for that somebody to be there: the clock of the scenario's `[pilot]` begins with the first frame that
+/// comes.
 class ServedUnit {
  public:
   /// @param line  outlives this

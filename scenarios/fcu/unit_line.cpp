@@ -64,7 +64,8 @@ std::unique_ptr<ByteStream> open_line(const UnitAddress& address) {
     socket->open();
     return socket;
   }
-  auto port = std::make_unique<SerialPort>(hil_bridge::transport::SerialPortConfig{address.port, address.baud});
+  auto port =
+      std::make_unique<SerialPort>(hil_bridge::transport::SerialPortConfig{address.port, address.baud});
   port->open();
   return port;
 }
@@ -90,7 +91,8 @@ void UnitOnLine::step() {
 }
 
 bool UnitOnLine::until(double seconds, const std::function<bool()>& done) {
-  const auto end = now() + std::chrono::duration_cast<hil_bridge::Time>(std::chrono::duration<double>(seconds));
+  const auto end =
+      now() + std::chrono::duration_cast<hil_bridge::Time>(std::chrono::duration<double>(seconds));
   for (;;) {
     step();
     if (done()) return true;
@@ -105,20 +107,23 @@ void UnitOnLine::meet() {
   const bool met = until(address_.patience, [&] {
     // An armed unit does not tell its version, but may be looked at.
     const bool armed = connection.armed(now()) && connection.parameters().progress().complete;
-    return armed || connection.state() == ConnectionState::kReady || connection.state() == ConnectionState::kRefused;
+    return armed || connection.state() == ConnectionState::kReady ||
+           connection.state() == ConnectionState::kRefused;
   });
   const std::string where = line_->name() + ": ";
   if (connection.state() == ConnectionState::kRefused) throw LinkError(where + connection.refusal());
   if (met) return;
   const hil_bridge::LinkHealth link = health();
   if (messages_ == 0) {
-    throw LinkError(where + (link.foreign + link.corrupted > 0
-                                 ? "bytes come, but no frame of ROSflight 2.0; is the baud rate right, and is this the unit?"
-                                 : "nothing is heard; is the unit powered, and is this its port?"));
+    throw LinkError(
+        where +
+        (link.foreign + link.corrupted > 0
+             ? "bytes come, but no frame of ROSflight 2.0; is the baud rate right, and is this the unit?"
+             : "nothing is heard; is the unit powered, and is this its port?"));
   }
   const auto& progress = connection.parameters().progress();
-  throw LinkError(where + "it is heard, but in " + std::to_string(static_cast<int>(address_.patience)) + " s it told " +
-                  (connection.version().empty() ? "no version and " : "its version and ") +
+  throw LinkError(where + "it is heard, but in " + std::to_string(static_cast<int>(address_.patience)) +
+                  " s it told " + (connection.version().empty() ? "no version and " : "its version and ") +
                   std::to_string(progress.known) + " of its parameters; try again with a greater --patience");
 }
 

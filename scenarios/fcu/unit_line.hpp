@@ -24,11 +24,12 @@ struct UnitAddress {
 
 void add_unit_address(CLI::App& app, UnitAddress& address);
 
-/// The line to a unit, opened. @throws ConfigError for an address that is none, transport::LinkError for a line
-/// that cannot be opened
+/// The line to a unit, opened. @throws ConfigError for an address that is none, transport::LinkError for a
+/// line that cannot be opened
 std::unique_ptr<hil_bridge::transport::ByteStream> open_line(const UnitAddress& address);
 
-/// A unit on the desk, talked to in real time: asked, and set while it is disarmed. No motor command ever leaves.
+/// A unit on the desk, talked to in real time: asked, and set while it is disarmed. No motor command ever
+/// leaves.
 class UnitOnLine {
  public:
   /// @throws as open_line

@@ -12,7 +12,8 @@ namespace {
 using hil_bridge::Time;
 
 template <std::size_t N>
-std::string names_of(unsigned bits, const std::array<std::pair<unsigned, const char*>, N>& names, const char* none) {
+std::string names_of(unsigned bits, const std::array<std::pair<unsigned, const char*>, N>& names,
+                     const char* none) {
   std::string text;
   for (const auto& [bit, name] : names) {
     if ((bits & bit) != 0) text += (text.empty() ? "" : ", ") + std::string(name);
@@ -52,16 +53,17 @@ std::string error_names(std::uint8_t code) {
 }
 
 std::string override_names(std::uint16_t bits) {
-  constexpr std::array<std::pair<unsigned, const char*>, 10> kNames = {{{0x001, "attitude switch"},
-                                                                        {0x002, "throttle switch"},
-                                                                        {0x004, "roll stick"},
-                                                                        {0x008, "pitch stick"},
-                                                                        {0x010, "yaw stick"},
-                                                                        {0x020, "throttle stick below the companion"},
-                                                                        {0x040, "no roll from the companion"},
-                                                                        {0x080, "no pitch from the companion"},
-                                                                        {0x100, "no yaw from the companion"},
-                                                                        {0x200, "no throttle from the companion"}}};
+  constexpr std::array<std::pair<unsigned, const char*>, 10> kNames = {
+      {{0x001, "attitude switch"},
+       {0x002, "throttle switch"},
+       {0x004, "roll stick"},
+       {0x008, "pitch stick"},
+       {0x010, "yaw stick"},
+       {0x020, "throttle stick below the companion"},
+       {0x040, "no roll from the companion"},
+       {0x080, "no pitch from the companion"},
+       {0x100, "no yaw from the companion"},
+       {0x200, "no throttle from the companion"}}};
   return names_of(bits, kNames, "the companion has all");
 }
 
@@ -82,7 +84,8 @@ std::string unit_report(const hil_bridge::SerialFcu& fcu, const std::string& lin
   }
   text += fact("radio", connection.radio_alive(now) ? "frames come" : "no frames: commands would be frozen");
   text += fact("IMU", connection.imu_alive(now) ? "samples come" : "silent");
-  text += fact("link", number("%.0f frames/s, ", health.frame_rate) + number("%.1f kB/s, ", 1e-3 * health.byte_rate) +
+  text += fact("link", number("%.0f frames/s, ", health.frame_rate) +
+                           number("%.1f kB/s, ", 1e-3 * health.byte_rate) +
                            number("%.2f %% lost, ", 100.0 * health.loss) + std::to_string(health.corrupted) +
                            " corrupted");
   text += fact("round trip", number("%.3f ms, ", milliseconds(time.round_trip)) +
@@ -124,7 +127,8 @@ std::string unit_report_json(const hil_bridge::SerialFcu& fcu, const std::string
   json["drift_ppm"] = 1e6 * connection.time_sync().drift;
   nlohmann::ordered_json rates;
   for (std::size_t k = 0; k < hil_bridge::rosflight::kDialect.size(); ++k) {
-    if (fcu.statistics().rate(k) > 0) rates[std::string(hil_bridge::rosflight::kDialect[k].name)] = fcu.statistics().rate(k);
+    if (fcu.statistics().rate(k) > 0)
+      rates[std::string(hil_bridge::rosflight::kDialect[k].name)] = fcu.statistics().rate(k);
   }
   json["rates"] = rates;
   return json.dump(2) + "\n";

@@ -30,7 +30,8 @@ Outcome run(const std::string& words) {
   Outcome outcome;
   FILE* const pipe = popen((std::string(IRONBIRD_PROGRAM) + " " + words + " 2>&1").c_str(), "r");
   std::array<char, 4096> part{};
-  while (const std::size_t count = fread(part.data(), 1, part.size(), pipe)) outcome.text.append(part.data(), count);
+  while (const std::size_t count = fread(part.data(), 1, part.size(), pipe))
+    outcome.text.append(part.data(), count);
   const int status = pclose(pipe);
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
@@ -42,13 +43,15 @@ class Server {
   explicit Server(const std::string& link, const char* arm_at = "pilot.arm_at=\"1000 s\"") : link_(link) {
     process_ = fork();
     if (process_ == 0) {
-      const std::string scenario = std::string(IRONBIRD_SOURCE_DIR) + "/scenarios/library/paper/three_waypoints.toml";
+      const std::string scenario =
+          std::string(IRONBIRD_SOURCE_DIR) + "/scenarios/library/paper/three_waypoints.toml";
       (void)!freopen("/dev/null", "w", stderr);
-      execl(IRONBIRD_PROGRAM, "ironbird", "fcu", "serve", scenario.c_str(), "--pty", link.c_str(), "--set", arm_at,
-            "--set", "pilot.take_off_at=\"1001 s\"", "--set", "duration=\"2000 s\"", nullptr);
+      execl(IRONBIRD_PROGRAM, "ironbird", "fcu", "serve", scenario.c_str(), "--pty", link.c_str(), "--set",
+            arm_at, "--set", "pilot.take_off_at=\"1001 s\"", "--set", "duration=\"2000 s\"", nullptr);
       _exit(127);
     }
-    for (int k = 0; k < 5000 && !fs::exists(link); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    for (int k = 0; k < 5000 && !fs::exists(link); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   ~Server() {
     kill(process_, SIGINT);
@@ -67,11 +70,13 @@ class FcuProgramTest : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
-  std::string fcu(const std::string& words) const { return "fcu " + words + " --port " + link_ + " --patience 30"; }
+  std::string fcu(const std::string& words) const {
+    return "fcu " + words + " --port " + link_ + " --patience 30";
+  }
 
-  const fs::path folder_ = fs::path(testing::TempDir()) /
-                           (std::string("ironbird_fcu_") +
-                            testing::UnitTest::GetInstance()->current_test_info()->name());
+  const fs::path folder_ =
+      fs::path(testing::TempDir()) /
+      (std::string("ironbird_fcu_") + testing::UnitTest::GetInstance()->current_test_info()->name());
   const std::string link_ = (folder_ / "unit").string();
 };
 
@@ -106,7 +111,8 @@ TEST_F(FcuProgramTest, SavesComparesSetsAndLoadsParameters) {
 TEST_F(FcuProgramTest, SetsNothingOfAFileThatDoesNotFit) {
   const Server server(link_);
   const std::string file = (folder_ / "wrong.yaml").string();
-  std::ofstream(file) << "- {name: RC_MAX_THR, type: 9, value: 0.5}\n- {name: RC_MAX_THRR, type: 9, value: 0.5}\n";
+  std::ofstream(file)
+      << "- {name: RC_MAX_THR, type: 9, value: 0.5}\n- {name: RC_MAX_THRR, type: 9, value: 0.5}\n";
   const Outcome outcome = run(fcu("params load " + file));
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.text, "RC_MAX_THRR: the unit has no such parameter; did you mean RC_MAX_THR?\n");

@@ -34,7 +34,8 @@ class ParameterFileTest : public testing::Test {
   }
   const std::filesystem::path file_ =
       std::filesystem::path(testing::TempDir()) /
-      (std::string("ironbird_parameters_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".yaml");
+      (std::string("ironbird_parameters_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
+       ".yaml");
 };
 
 TEST_F(ParameterFileTest, GivesEveryValueBackBitForBit) {
@@ -49,10 +50,10 @@ TEST_F(ParameterFileTest, GivesEveryValueBackBitForBit) {
 }
 
 TEST_F(ParameterFileTest, ReadsWhatTheUsualCompanionWrites) {
-  const auto records = read_parameter_file(written(
-      "- {name: MOTOR_RESISTANCE, type: 9, value: 0.0419999994}\n"
-      "- {type: 6, name: RC_ARM_CHN, value: -1}\n"
-      "-\n  name: FAILSAFE_THR\n  type: 9\n  value: -1\n"));
+  const auto records =
+      read_parameter_file(written("- {name: MOTOR_RESISTANCE, type: 9, value: 0.0419999994}\n"
+                                  "- {type: 6, name: RC_ARM_CHN, value: -1}\n"
+                                  "-\n  name: FAILSAFE_THR\n  type: 9\n  value: -1\n"));
   ASSERT_EQ(records.size(), 3U);
   EXPECT_EQ(hil_bridge::value_text(records[0]), "0.042");
   EXPECT_EQ(records[1].bits, 0xFFFFFFFFU);
