@@ -45,7 +45,7 @@ TEST_P(WrongWordTest, GetsTheNearestRightOneInOneLine) {
 INSTANTIATE_TEST_SUITE_P(
     Words, WrongWordTest,
     ::testing::Values(WordCase{"Verb", "rnu x.toml", "rnu: there is no such verb; did you mean run?"},
-                      WordCase{"VerbUnlikeAny", "wxyzwxyz", "run, check, report, video, snapshot, topics"},
+                      WordCase{"VerbUnlikeAny", "wxyzwxyz", "run, check, report, video, snapshot, fcu, topics"},
                       WordCase{"Option", "run x.toml --jbos 2",
                                "--jbos: run does not take this; did you mean --jobs?"},
                       WordCase{"OptionUnlikeAny", "check x.toml --zzzzzzzzzz",
@@ -93,7 +93,7 @@ TEST_P(ExamplesTest, OfTheHelpWork) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Verbs, ExamplesTest,
-                         ::testing::Values("run", "check", "report", "video", "snapshot", "topics"),
+                         ::testing::Values("run", "check", "report", "video", "snapshot", "fcu", "topics"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 constexpr const char* kMission =
