@@ -93,7 +93,7 @@ TEST_P(ExamplesTest, OfTheHelpWork) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Verbs, ExamplesTest,
-                         ::testing::Values("run", "check", "report", "video", "snapshot", "fcu", "topics"),
+                         ::testing::Values("run", "check", "report", "video", "snapshot", "topics"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 constexpr const char* kMission =
