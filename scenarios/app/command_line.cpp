@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -15,6 +17,7 @@
 #include "scenarios/app/reproducible_math.hpp"
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/nearest_name.hpp"
+#include "scenarios/config/write_file.hpp"
 
 namespace ironbird::scenarios {
 
@@ -104,7 +107,11 @@ int run_command_line(int argc, char** argv, const autopilot::Modules& modules) {
       "ironbird VERB --help says more, with examples.\n"
       "Start with: ironbird run scenarios/library/paper/three_waypoints.toml");
   try {
-    return run_verb_of(app, argc, argv, modules);
+    const int code = run_verb_of(app, argc, argv, modules);
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    throw UserError(with_remedy(std::string("standard output: cannot be written: ") +
+                                std::strerror(errno == 0 ? ENOSPC : errno)));
   } catch (const std::exception& error) {
     const Failure failure = failure_of(error);
     std::fprintf(stderr, "%s\n", failure.text.c_str());

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -9,6 +10,7 @@
 #include "hil_bridge/transport/byte_stream.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
 
 namespace ironbird::scenarios {
 
@@ -26,6 +28,10 @@ bool is(const std::exception& error) {
 
 Failure failure_of(const std::exception& error) {
   if (is<hil_bridge::transport::LinkError>(error)) return {kExitHardware, error.what()};
+  if (const auto* at = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+    const std::string place = at->path1().empty() ? "" : at->path1().string() + ": ";
+    return {kExitUsage, with_remedy(place + at->code().message())};
+  }
   if (is<UserError>(error) || is<std::invalid_argument>(error) || is<std::system_error>(error)) {
     return {kExitUsage, error.what()};
   }

@@ -49,6 +49,9 @@ void remove_old_products(const std::filesystem::path& folder) {
   for (const char* name : {"verdict.json", "report.html", "flight.mcap", "video.mp4"}) {
     std::filesystem::remove(folder / name, ignored);
   }
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "snapshots", ignored)) {
+    if (entry.path().extension() == ".png") std::filesystem::remove(entry.path(), ignored);
+  }
 }
 
 /// Does the run and fills `result` as far as it comes.

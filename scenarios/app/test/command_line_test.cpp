@@ -44,15 +44,15 @@ TEST_P(WrongWordTest, GetsTheNearestRightOneInOneLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Words, WrongWordTest,
-    ::testing::Values(WordCase{"Verb", "rnu x.toml", "rnu: there is no such verb; did you mean run?"},
-                      WordCase{"VerbUnlikeAny", "wxyzwxyz", "run, check, report, video, snapshot, fcu, topics"},
-                      WordCase{"Option", "run x.toml --jbos 2",
-                               "--jbos: run does not take this; did you mean --jobs?"},
-                      WordCase{"OptionUnlikeAny", "check x.toml --zzzzzzzzzz",
-                               "--zzzzzzzzzz: check does not take this; see ironbird check --help"},
-                      WordCase{"OptionWithValue", "run x.toml --ot=y", "did you mean --out?"},
-                      WordCase{"NoScenario", "run", "scenarios is required; see ironbird run --help"},
-                      WordCase{"NoNumber", "run x.toml --jobs many", "--jobs"}),
+    ::testing::Values(
+        WordCase{"Verb", "rnu x.toml", "rnu: there is no such verb; did you mean run?"},
+        WordCase{"VerbUnlikeAny", "wxyzwxyz", "run, check, report, video, snapshot, fcu, topics"},
+        WordCase{"Option", "run x.toml --jbos 2", "--jbos: run does not take this; did you mean --jobs?"},
+        WordCase{"OptionUnlikeAny", "check x.toml --zzzzzzzzzz",
+                 "--zzzzzzzzzz: check does not take this; see ironbird check --help"},
+        WordCase{"OptionWithValue", "run x.toml --ot=y", "did you mean --out?"},
+        WordCase{"NoScenario", "run", "scenarios is required; see ironbird run --help"},
+        WordCase{"NoNumber", "run x.toml --jobs many", "--jobs"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 /// A folder that looks like the root of the tree, to fly in without leaving anything in the real one.

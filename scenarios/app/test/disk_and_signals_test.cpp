@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "scenarios/app/test/program.hpp"
 #include "scenarios/record/log.hpp"
 
@@ -51,6 +54,33 @@ TEST_F(DiskTest, SaysOnceThatTheDiskIsFullAndLeavesALogThatOpens) {
   const Log log = Log::read(out_ / "short/flight.mcap");
   ASSERT_NE(log.topic("/truth/state"), nullptr);
   EXPECT_GT(log.topic("/truth/state")->time().size(), 10U);
+}
+
+TEST_F(DiskTest, SaysThatItsOutputCouldNotBeWritten) {
+  for (const std::string& words :
+       {std::string(" topics"), " run " + file_ + " --no-log --no-report --json --out " + out_.string()}) {
+    const Said said = run_shell(kProgram + words + " >/dev/full");
+    EXPECT_EQ(said.exit_code, 2) << words;
+    EXPECT_NE(said.text.find("standard output: cannot be written: No space left on device"),
+              std::string::npos)
+        << said.text;
+  }
+}
+
+TEST_F(DiskTest, LeavesNoHalfAReport) {
+  const Said said =
+      run_shell("trap '' XFSZ; ulimit -f 100; " + kProgram + " run " + file_ + " --no-log --junit " +
+                (folder_ / "j.xml").string() + " --out " + out_.string());
+  EXPECT_FALSE(std::filesystem::exists(out_ / "short/report.html")) << said.text;
+}
+
+TEST_F(DiskTest, LeavesNoSnapshotOfAnEarlierRun) {
+  std::filesystem::create_directories(out_ / "short/snapshots");
+  std::ofstream(out_ / "short/snapshots/old.png") << "x";
+  std::ofstream(out_ / "short/snapshots/notes.txt") << "x";
+  run_shell(kProgram + " run " + file_ + " --no-log --out " + out_.string());
+  EXPECT_FALSE(std::filesystem::exists(out_ / "short/snapshots/old.png"));
+  EXPECT_TRUE(std::filesystem::exists(out_ / "short/snapshots/notes.txt"));
 }
 
 TEST_F(DiskTest, SaysWhatHelpsWhenThereIsNoRoom) {

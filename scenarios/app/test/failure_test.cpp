@@ -24,6 +24,12 @@ TEST(FailureTest, LeavesWhatTheUserCanMendInItsOwnWords) {
   EXPECT_EQ(failure_of(std::filesystem::filesystem_error("x", std::error_code())).exit_code, 2);
 }
 
+TEST(FailureTest, NamesThePlaceAndTheRemedyOfAFolderThatCannotBeMade) {
+  const std::filesystem::filesystem_error error("cannot create directories", "ro/r",
+                                                std::make_error_code(std::errc::read_only_file_system));
+  EXPECT_EQ(failure_of(error).text, "ro/r: Read-only file system; name another place on the command line");
+}
+
 TEST(FailureTest, AsksForAReportOfEverythingElse) {
   for (const Failure& defect : {failure_of(std::runtime_error("odd")), failure_of(std::logic_error("odd"))}) {
     EXPECT_EQ(defect.exit_code, 4);
