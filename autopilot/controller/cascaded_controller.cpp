@@ -58,7 +58,8 @@ RequestOutcome CascadedController::request(FlightWish wish, const StateEstimate&
                                                  .estimate_usable = is_usable(estimate),
                                                  .position_known = estimate.position_known,
                                                  .position_doubtful = estimate.position_doubtful,
-                                                 .on_ground = touch_down_.felt()});
+                                                 .on_ground = touch_down_.felt(),
+                                                 .overturned = upright_.overturned()});
   if (!reason.empty()) return {false, std::string(reason)};
   wishes_[static_cast<std::size_t>(wish)] = true;
   return {true, ""};
@@ -133,8 +134,10 @@ void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& s
   const bool left_alone = phase() == FlightPhase::kSilent && status.overridden();
   const bool taken = status.failsafe || status.pilot_holds();
   rest_.look(estimate, is_usable(estimate), status, taken || left_alone, params());
-  if (phase() == FlightPhase::kDisarmed) upright_.reset();
-  upright_.look(estimate, is_usable(estimate), rest_.still(), cascade_.asked_upright(), taken);
+  if (!status.armed) upright_.forgive();
+  const bool flies = phase() != FlightPhase::kDisarmed;
+  upright_.look(estimate, is_usable(estimate), rest_.still(), flies ? cascade_.asked_upright() : std::nullopt,
+                taken);
 }
 
 bool CascadedController::rests_with_pilot(const StateEstimate& estimate) const {
@@ -145,7 +148,7 @@ bool CascadedController::rests_with_pilot(const StateEstimate& estimate) const {
 bool CascadedController::take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
                                          const FcuStatus& status, FlightPhase phase) const {
   // Whoever takes the vehicle between the grant and the step keeps it.
-  if (status.failsafe || status.pilot_holds()) return false;
+  if (status.failsafe || status.pilot_holds() || upright_.overturned()) return false;
   if (wishes_[static_cast<std::size_t>(FlightWish::kTakeOff)]) return true;
   return params().take_off_on_arming && phase == FlightPhase::kDisarmed && armed_at_ &&
          seconds(estimate.stamp - *armed_at_) <= params().arming_patience &&

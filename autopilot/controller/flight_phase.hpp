@@ -77,6 +77,7 @@ struct WishConditions {
   bool position_known = true;
   bool position_doubtful = false;
   bool on_ground = false;
+  bool overturned = false;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -88,6 +89,7 @@ struct WishConditions {
     visit("position_known", self.position_known, "1", "so can the horizontal position");
     visit("position_doubtful", self.position_doubtful, "1", "the satellites contradict it");
     visit("on_ground", self.on_ground, "1", "touch-down was felt");
+    visit("overturned", self.overturned, "1", "it lies on its side or back, or was out of control");
   }
 };
 
@@ -105,6 +107,7 @@ constexpr std::string_view why_not(FlightWish wish, const WishConditions& now) {
   }
   if (wish == FlightWish::kTakeOff) {
     if (!stands) return "it is flying already";
+    if (now.overturned) return "it is overturned or was out of control: stand it up and disarm";
     return now.position_doubtful ? "the satellites contradict the position" : "";
   }
   if (stands) return "it is on the ground";

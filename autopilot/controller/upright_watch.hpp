@@ -26,9 +26,16 @@ class UprightWatch {
   /// The vehicle is to be given no thrust.
   bool stops(Time now) const;
 
+  /// As far as is known it leans too much to take off, or was out of control.
+  bool overturned() const { return leans_ || given_up_; }
+
+  /// Its motors are disarmed: it is no longer out of control. How it lies is another matter.
+  void forgive();
+
   void reset() { *this = UprightWatch{}; }
 
  private:
+  bool leans_ = false;
   Since lies_;
   Since upright_;
   Since out_of_control_;

@@ -88,6 +88,42 @@ TEST_F(CascadedControllerTest, StopsTheMotorsOfAVehicleThatTumblesAndStaysSoUnti
   EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, 0.0);
 }
 
+TEST_F(CascadedControllerTest, TakesNoOverturnedVehicleOffHoweverItIsAsked) {
+  // GIVEN a vehicle that is armed on its back
+  arm_with_take_off();
+  estimate_.q_NB = leaning(180.0);
+  for (int i = 0; i < 1000; ++i) ASSERT_TRUE(is_silent());
+  EXPECT_NE(refusal(FlightWish::kTakeOff).find("overturned"), std::string::npos);
+  // WHEN it turns over between the grant and the step THEN it stays down
+  estimate_.q_NB = leaning(10.0);
+  run(NoSetpoint{});
+  ask(FlightWish::kTakeOff);
+  estimate_.q_NB = leaning(70.0);
+  EXPECT_TRUE(is_silent());
+  // WHEN it stands THEN it may fly
+  estimate_.q_NB = leaning(10.0);
+  run(NoSetpoint{});
+  ask(FlightWish::kTakeOff);
+  EXPECT_FALSE(is_silent());
+}
+
+TEST_F(CascadedControllerTest, DoesNotFlyAgainWithoutDisarmingAfterItTumbledToTheGround) {
+  fly_offboard();
+  estimate_.q_NB = leaning(110.0);
+  estimate_.v_NB_B.x() = 2.0;
+  run_for(3.1);
+  // WHEN it has come to rest on its feet with the pilot's sticks elsewhere, still armed
+  estimate_.q_NB = leaning(0.0);
+  estimate_.v_NB_B.setZero();
+  estimate_.p_NB_N.z() = 0.0;
+  status_.rc_override = 0x001;
+  run_for(0.4);
+  status_.rc_override = 0;
+  run();
+  ASSERT_EQ(controller_.phase(), FlightPhase::kDisarmed);
+  EXPECT_NE(refusal(FlightWish::kTakeOff).find("disarm"), std::string::npos);
+}
+
 TEST_F(CascadedControllerTest, LetsAcrobaticsByRatesAndTorquesBe) {
   fly_offboard();
   estimate_.q_NB = leaning(110.0);
