@@ -33,7 +33,6 @@ void CascadedController::reset() {
   wishes_.fill(false);
   armed_at_.reset();
   seen_disarmed_ = false;
-  blind_since_.reset();
   rest_.reset();
   upright_.reset();
   descent_.reset();
@@ -42,6 +41,8 @@ void CascadedController::reset() {
 void CascadedController::take_over(const Signals& signals) {
   Controller::take_over(signals);
   touch_down_.restore(memory().on_ground);
+  upright_.restore(memory().given_up);
+  rest_.restore(memory().may_lie);
   if (!signals.flight.fcu.overridden()) cascade_.resume(signals.command, signals.estimate);
   if (memory().has_point) return;
   notebook().has_point = true;
@@ -89,7 +90,7 @@ FcuCommand CascadedController::control(const ControlSetpoint& setpoint, bool lan
   }
   if (upright_.stops(estimate.stamp)) return stop();
   if (step.phase == FlightPhase::kSilent) {
-    return without_estimate(estimate, status.overridden() || rest_.in_doubt(), dt);
+    return without_estimate(estimate, status.overridden() || rest_.may_lie(), dt);
   }
   return fly(setpoint, estimate, status, dt, step.phase);
 }
@@ -102,14 +103,14 @@ FcuCommand CascadedController::stop() {
 
 FcuCommand CascadedController::fly(const ControlSetpoint& setpoint, const StateEstimate& estimate,
                                    const FcuStatus& status, double dt, FlightPhase phase) {
-  const bool overridden = status.overridden() || rest_.in_doubt();
+  const bool overridden = status.overridden() || rest_.may_lie();
   const bool stands =
       phase == FlightPhase::kTakeOff && memory().launch_N.z() - estimate.p_NB_N.z() < kOffGround;
   if (overridden && !stands && is_usable(estimate)) {
     notebook().point_N = cascade_.resting_place(estimate, params().braking_acceleration);
     notebook().point_heading = estimate.heading;
   }
-  if (rest_.in_doubt()) return stop();
+  if (rest_.may_lie()) return stop();
   Cascade::Step how{dt, !overridden, params().take_off_pass_through};
   switch (phase) {
     case FlightPhase::kTakeOff:
@@ -138,6 +139,8 @@ void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& s
   const bool flies = phase() != FlightPhase::kDisarmed;
   upright_.look(estimate, is_usable(estimate), rest_.still(), flies ? cascade_.asked_upright() : std::nullopt,
                 taken);
+  notebook().given_up = upright_.given_up();
+  notebook().may_lie = rest_.may_lie();
 }
 
 bool CascadedController::rests_with_pilot(const StateEstimate& estimate) const {
@@ -188,9 +191,9 @@ void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateE
   }
   FlightMemory& m = notebook();
   const bool high = m.launch_N.z() - estimate.p_NB_N.z() > kLow;
-  blind_since_.reset();
-  if (phase == FlightPhase::kSilent && m.launched && !m.on_ground && high) blind_since_ = estimate.stamp;
+  m.blind = phase == FlightPhase::kSilent && m.launched && !m.on_ground && high;
   m.on_ground = false;
+  m.phase_began = estimate.stamp;                                      // already in this step
   if (from == FlightPhase::kTakeOff && phase == FlightPhase::kHold) {  // over the place where it climbed
     m.point_N.z() = std::min(estimate.p_NB_N.z(), m.launch_N.z() - params().take_off_height);
     return;
@@ -206,8 +209,8 @@ void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateE
 FcuCommand CascadedController::without_estimate(const StateEstimate& estimate, bool overridden, double dt) {
   // In the air silence is a fall when the pilot's throttle is down. The FCU's angle mode is no way out: that
   // stick limits the throttle there too.
-  const bool blind =
-      blind_since_ && !overridden && seconds(estimate.stamp - *blind_since_) <= params().silence_patience;
+  const double in_phase = seconds(estimate.stamp - memory().phase_began);
+  const bool blind = memory().blind && !overridden && in_phase <= params().silence_patience;
   const double thrust = kBlindLift * params().mass * params().gravity;
   const bool knows_up = std::isfinite(estimate.roll + estimate.pitch) && estimate.w_NB_B.allFinite() &&
                         estimate.sigma_attitude.head<2>().maxCoeff() < kBlindTilt;

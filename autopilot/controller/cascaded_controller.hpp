@@ -129,10 +129,9 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
 
   Cascade cascade_;
   TouchDown touch_down_;
-  std::array<bool, 3> wishes_{};     // one for each FlightWish, for the next step only
-  std::optional<Time> blind_since_;  // silence fell in the air
-  bool seen_disarmed_ = false;       // by this object, in the step before
-  std::optional<Time> armed_at_;     // none: not armed, or not seen to arm
+  std::array<bool, 3> wishes_{};  // one for each FlightWish, for the next step only
+  bool seen_disarmed_ = false;    // by this object, in the step before
+  std::optional<Time> armed_at_;  // none: not armed, or not seen to arm
   RestWatch rest_;
   UprightWatch upright_;
   Descent descent_;

@@ -26,19 +26,19 @@ void RestWatch::look(const StateEstimate& estimate, bool usable, const FcuStatus
     still_with_others_.forget();
     carried_.forget();
     falling_.forget();
-    in_doubt_ = taken ? idle : in_doubt_ && idle;
+    may_lie_ = taken ? idle : may_lie_ && idle;
     return;
   }
   feel_fall(estimate, idle);
   const double speed = estimate.position_known ? estimate.v_NB_B.norm() : std::abs(estimate.v_NB_N().z());
   still_ = speed < limits.rest_speed && estimate.w_NB_B.norm() < limits.rest_rate;
   if (taken) {
-    in_doubt_ = idle;
+    may_lie_ = idle;
   } else if (falling_.lasts(kLongestBounce, estimate.stamp) || !idle) {
-    in_doubt_ = false;
+    may_lie_ = false;
   }
-  still_with_others_.note(still_ && (taken || in_doubt_ || status.overridden()), estimate.stamp);
-  carried_.note(idle && std::abs(a_down_) < kFalls && (taken || in_doubt_), estimate.stamp);
+  still_with_others_.note(still_ && (taken || may_lie_ || status.overridden()), estimate.stamp);
+  carried_.note(idle && std::abs(a_down_) < kFalls && (taken || may_lie_), estimate.stamp);
 }
 
 void RestWatch::feel_fall(const StateEstimate& estimate, bool idle) {

@@ -31,8 +31,8 @@ struct RestLimits {
 /// does not fall. The second needs no velocity, which after a hard touch-down is wrong by metres per second:
 /// the blow is shorter than a sample.
 ///
-/// Who hands the vehicle back with idling motors leaves it in doubt whether it flies. The doubt ends when it
-/// falls for as long as no bounce lasts, or lies.
+/// When it is handed back with idling motors it may lie or fly, until it falls for as long as no bounce
+/// lasts, or is felt to lie.
 class RestWatch {
  public:
   /// One step.
@@ -48,13 +48,15 @@ class RestWatch {
   bool still_with_others() const { return still_with_others_.so(); }
 
   /// It was handed back with idling motors, and it is not known yet whether it flies.
-  bool in_doubt() const { return in_doubt_; }
+  bool may_lie() const { return may_lie_; }
 
   /// It lies on the ground and was put there by others.
   /// @param low  near the height of the launch, where less stillness convinces
   bool rests(Time now, bool low, const RestLimits& limits) const;
 
   void reset();
+  /// Goes on where another one stopped.
+  void restore(bool may_lie) { may_lie_ = may_lie; }
 
  private:
   void feel_fall(const StateEstimate& estimate, bool idle);
@@ -63,7 +65,7 @@ class RestWatch {
   double v_down_ = 0.0;       // m/s, of the step before
   double a_down_ = 0.0;       // m/s^2, low-passed
   bool still_ = false;
-  bool in_doubt_ = false;
+  bool may_lie_ = false;
   Since still_with_others_;
   Since carried_;  // although its motors idle, in other hands
   Since falling_;  // with idling motors

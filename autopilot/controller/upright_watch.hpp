@@ -26,6 +26,9 @@ class UprightWatch {
   /// The vehicle is to be given no thrust.
   bool stops(Time now) const;
 
+  /// It was out of control, and has been neither disarmed nor righted by the pilot.
+  bool given_up() const { return given_up_; }
+
   /// As far as is known it leans too much to take off, or was out of control.
   bool overturned() const { return leans_ || given_up_; }
 
@@ -33,6 +36,8 @@ class UprightWatch {
   void forgive();
 
   void reset() { *this = UprightWatch{}; }
+  /// Goes on where another one stopped.
+  void restore(bool given_up) { given_up_ = given_up; }
 
  private:
   bool leans_ = false;

@@ -197,58 +197,6 @@ TEST_F(CascadedControllerTest, TakesOffAgainAfterALandingByRequest) {
 }
 
 /// What the autopilot would hand to a successor.
-Signals left_by(const Controller& controller, const StateEstimate& estimate) {
-  Signals signals;
-  signals.estimate = estimate;
-  signals.flight.phase = controller.phase();
-  signals.flight.cause = controller.cause();
-  signals.flight.memory = controller.memory();
-  return signals;
-}
-
-TEST_F(CascadedControllerTest, TakesOverThePhaseOfItsPredecessor) {
-  Signals signals;
-  signals.flight.phase = kOffboard;
-  controller_.take_over(signals);
-  EXPECT_NEAR(std::get<PassThroughCommand>(run()).thrust, 38.0, 1e-9);
-  EXPECT_EQ(controller_.phase(), kOffboard);
-}
-
-TEST_F(CascadedControllerTest, GoesOnWithTheClimbOfItsPredecessor) {
-  // GIVEN a climb that began at 10 m and has come to 11.4 m
-  estimate_.p_NB_N << 3.0, 4.0, -10.0;
-  ask(FlightWish::kTakeOff);
-  run();
-  estimate_.p_NB_N << 3.2, 4.0, -11.4;
-  run();
-  CascadedController successor;
-  successor.take_over(left_by(controller_, estimate_));
-  const auto step = [&] {
-    estimate_.stamp += std::chrono::microseconds(2500);
-    return successor.run(kSomething, false, estimate_, status_);
-  };
-  step();
-  EXPECT_EQ(successor.phase(), kTakeOff);
-  EXPECT_EQ(successor.memory().point_N.x(), 3.0) << "over the place where it began";
-  // WHEN it has come within half a metre of 2 m above the beginning THEN it holds, not 2 m further up
-  estimate_.p_NB_N.z() = -11.6;
-  step();
-  EXPECT_EQ(successor.phase(), kHold);
-  EXPECT_EQ(successor.memory().point_N.z(), -12.0);
-}
-
-TEST_F(CascadedControllerTest, KeepsTheMotorsStillOnTheGroundAfterItsPredecessorsLanding) {
-  fly_offboard();
-  ask(FlightWish::kLand);
-  run_for(2.0);
-  ASSERT_EQ(std::get<PassThroughCommand>(run()).thrust, 0.0);
-  CascadedController successor;
-  successor.take_over(left_by(controller_, estimate_));
-  estimate_.stamp += std::chrono::microseconds(2500);
-  EXPECT_EQ(std::get<PassThroughCommand>(successor.run(kSomething, false, estimate_, status_)).thrust, 0.0);
-  EXPECT_EQ(successor.memory().launch_N, Vector3(3.0, 4.0, 0.0));
-}
-
 TEST_F(CascadedControllerTest, GivesAVehicleThatLiesOnItsBackNoThrust) {
   fly_offboard();
   estimate_.q_NB = Quaternion(0.0, 1.0, 0.0, 0.0);
