@@ -12,7 +12,7 @@ namespace {
 
 // So near to the height of the launch the vehicle is more likely on the ground than in the air.
 constexpr double kLow = 1.0;         // m
-constexpr double kOffGround = 0.3;   // m above the launch: the climb has begun
+constexpr double kOffGround = 0.3;   // m from the launch: the climb has begun
 constexpr double kBlindTilt = 0.35;  // rad, 1 sigma: less sure it is better not to turn
 constexpr double kBlindLift = 0.97;  // of the weight: rather down than up
 // A vehicle that sinks slower than this share of what it was told to is held up by something.
@@ -105,7 +105,7 @@ FcuCommand CascadedController::fly(const ControlSetpoint& setpoint, const StateE
                                    const FcuStatus& status, double dt, FlightPhase phase) {
   const bool overridden = status.overridden() || rest_.may_lie();
   const bool stands =
-      phase == FlightPhase::kTakeOff && memory().launch_N.z() - estimate.p_NB_N.z() < kOffGround;
+      phase == FlightPhase::kTakeOff && std::abs(memory().launch_N.z() - estimate.p_NB_N.z()) < kOffGround;
   if (overridden && !stands && is_usable(estimate)) {
     notebook().point_N = cascade_.resting_place(estimate, params().braking_acceleration);
     notebook().point_heading = estimate.heading;
@@ -144,7 +144,7 @@ void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& s
 }
 
 bool CascadedController::rests_with_pilot(const StateEstimate& estimate) const {
-  const bool low = memory().launched && memory().launch_N.z() - estimate.p_NB_N.z() < kLow;
+  const bool low = memory().launched && std::abs(memory().launch_N.z() - estimate.p_NB_N.z()) < kLow;
   return rest_.rests(estimate.stamp, low, params());
 }
 
@@ -190,7 +190,7 @@ void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateE
     rest_.reset();
   }
   FlightMemory& m = notebook();
-  const bool high = m.launch_N.z() - estimate.p_NB_N.z() > kLow;
+  const bool high = std::abs(m.launch_N.z() - estimate.p_NB_N.z()) > kLow;
   m.blind = phase == FlightPhase::kSilent && m.launched && !m.on_ground && high;
   m.on_ground = false;
   m.phase_began = estimate.stamp;                                      // already in this step

@@ -28,8 +28,9 @@ struct RestLimits {
 };
 
 /// Feels the ground while pilot or failsafe have the vehicle: it lies still, or its motors idle and yet it
-/// does not fall. The second needs no velocity, which after a hard touch-down is wrong by metres per second:
-/// the blow is shorter than a sample.
+/// neither falls nor sinks fast. Only a blow ends a fall, for at its greatest speed the air carries the
+/// vehicle. After a blow its velocity is not looked at, being wrong by metres per second: the blow is shorter
+/// than a sample.
 ///
 /// When it is handed back with idling motors it may lie or fly, until it falls for as long as no bounce
 /// lasts, or is felt to lie.
@@ -51,7 +52,7 @@ class RestWatch {
   bool may_lie() const { return may_lie_; }
 
   /// It lies on the ground and was put there by others.
-  /// @param low  near the height of the launch, where less stillness convinces
+  /// @param low  near the height of the launch, where less time convinces
   bool rests(Time now, bool low, const RestLimits& limits) const;
 
   void reset();
@@ -67,8 +68,10 @@ class RestWatch {
   bool still_ = false;
   bool may_lie_ = false;
   Since still_with_others_;
-  Since carried_;  // although its motors idle, in other hands
-  Since falling_;  // with idling motors
+  Since carried_;        // although its motors idle, in other hands
+  Since falling_;        // with idling motors
+  bool fell_ = false;    // for longer than a bounce, and nothing has stopped it since
+  bool struck_ = false;  // a blow has ended the last fall
 };
 
 }  // namespace ironbird::autopilot

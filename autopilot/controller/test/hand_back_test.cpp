@@ -68,6 +68,31 @@ TEST_P(HandBackTest, CatchesAVehicleThatFallsWhenItIsHandedBack) {
   EXPECT_GT(flight.lift, 1.0);
 }
 
+TEST_P(HandBackTest, CatchesAVehicleThatTheAirCarriesWheneverItIsHandedBack) {
+  for (double held = 1.5; held < 8.0; held += 0.25) {
+    VerticalFlight flight;
+    flight.terminal_speed = 12.0;
+    bring(flight, GetParam());
+    flight.live(12.0, 1.5);
+    flight.live(held, 0.0);
+    ASSERT_GT(flight.height, 10.0);
+    flight.live(0.01);
+    ASSERT_GT(flight.lift, 1.0) << "after " << held << " s, at " << flight.v_down << " m/s";
+  }
+}
+
+TEST_P(HandBackTest, CatchesAVehicleThatSinksFastWithMotorsThatHaveOnlyJustBegunToIdle) {
+  VerticalFlight flight;
+  flight.terminal_speed = 12.0;
+  bring(flight, GetParam());
+  flight.live(8.0, 1.5);
+  flight.live(4.0, 0.15);  // a fall, and yet not idle
+  flight.live(0.3, 0.05);
+  ASSERT_GT(flight.height, 10.0);
+  flight.live(0.01);
+  EXPECT_GT(flight.lift, 1.0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Phases, HandBackTest, ::testing::Values(kTakeOff, kHold, kLanding, kLevelDescent),
                          [](const auto& phase) {
                            for (const auto& [value, name] : enumerators(FlightPhase{})) {

@@ -28,7 +28,9 @@ class VerticalFlight {
       const auto* direct = std::get_if<PassThroughCommand>(&command);
       lift = pilot.value_or(direct == nullptr ? 0.0 : direct->thrust / weight());
       status.greatest_output = lift < 0.1 ? 0.1 : 0.6;
-      move(controller.params().gravity * (1.0 - lift));
+      const double drag =
+          terminal_speed ? v_down * std::abs(v_down) / (*terminal_speed * *terminal_speed) : 0.0;
+      move(controller.params().gravity * (1.0 - lift - drag));
     }
   }
 
@@ -41,6 +43,7 @@ class VerticalFlight {
   double height = 0.0;  // m
   double v_down = 0.0;  // m/s
   double lift = 0.0;
+  std::optional<double> terminal_speed;  // m/s, of a fall without thrust; none: no drag
 
  private:
   static constexpr double kMissed = 0.3;  // of the speed of an impact
