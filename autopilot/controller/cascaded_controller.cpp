@@ -139,6 +139,7 @@ void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& s
   const bool flies = phase() != FlightPhase::kDisarmed;
   upright_.look(estimate, is_usable(estimate), rest_.still(), flies ? cascade_.asked_upright() : std::nullopt,
                 taken);
+  if (!estimate.position_doubtful) notebook().last_sure = estimate.stamp;
   notebook().given_up = upright_.given_up();
   notebook().may_lie = rest_.may_lie();
 }
@@ -168,7 +169,8 @@ PhaseInputs CascadedController::inputs(const ControlSetpoint& setpoint, bool lan
   in.estimate_usable = is_usable(estimate);
   in.position_known = estimate.position_known;
   in.position_doubtful = estimate.position_doubtful;
-  in.doubt_long = in_phase >= params().doubt_patience;
+  const double in_doubt = std::min(in_phase, seconds(estimate.stamp - memory().last_sure));
+  in.doubt_long = in_doubt >= params().doubt_patience;
   in.setpoint_valid = !std::holds_alternative<NoSetpoint>(setpoint);
   in.take_off_wanted = take_off_wanted(setpoint, estimate, status, phase);
   in.height_reached =

@@ -21,7 +21,7 @@ struct PhaseInputs {
   bool estimate_usable = false;    ///< height and attitude can be flown on
   bool position_known = true;      ///< so can the horizontal position
   bool position_doubtful = false;  ///< the satellites contradict it
-  bool doubt_long = false;         ///< they have for so long, in this hold, that it lands
+  bool doubt_long = false;         ///< they have for so long in this phase that it lands
   bool take_off_wanted = false;    ///< by request, or by arming
   bool height_reached = false;     ///< near enough to the take-off height
   bool hold_over = false;          ///< the hold after take-off has lasted long enough
@@ -39,7 +39,7 @@ struct PhaseInputs {
     visit("estimate_usable", self.estimate_usable, "1", "height and attitude can be flown on");
     visit("position_known", self.position_known, "1", "so can the horizontal position");
     visit("position_doubtful", self.position_doubtful, "1", "the satellites contradict it");
-    visit("doubt_long", self.doubt_long, "1", "they have for so long, in this hold, that it lands");
+    visit("doubt_long", self.doubt_long, "1", "they have for so long in this phase that it lands");
     visit("take_off_wanted", self.take_off_wanted, "1", "by request, or by arming");
     visit("height_reached", self.height_reached, "1", "near enough to the take-off height");
     visit("hold_over", self.hold_over, "1", "the hold has lasted long enough");

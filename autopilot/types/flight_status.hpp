@@ -65,6 +65,8 @@ struct FlightMemory {
   bool given_up = false;
   bool blind = false;
   bool may_lie = false;
+  Time last_sure{};
+  double lift = 1.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -80,6 +82,8 @@ struct FlightMemory {
     visit("blind", self.blind, "1", "the estimate was lost in the air, in this phase");
     visit("may_lie", self.may_lie, "1",
           "it was handed back with idling motors, and it is not known yet whether it flies");
+    visit("last_sure", self.last_sure, "ns", "stamp of the last estimate whose position was not in doubt");
+    visit("lift", self.lift, "1", "share of the weight, as it is configured, that has carried it lately");
   }
 };
 

@@ -112,6 +112,17 @@ TEST_F(CascadedControllerTest, HoldsAPositionInDoubtThenLandsThere) {
   EXPECT_EQ(controller_.phase(), kOffboard);
 }
 
+TEST_F(CascadedControllerTest, CountsADoubtFromItsBeginningHoweverLongItHasHeld) {
+  fly_offboard();
+  run_for(60.0, NoSetpoint{});
+  ASSERT_EQ(controller_.phase(), kHold);
+  estimate_.position_doubtful = true;
+  run_for(controller_.params().doubt_patience - 0.1, NoSetpoint{});
+  EXPECT_EQ(controller_.phase(), kHold);
+  run_for(0.2, NoSetpoint{});
+  EXPECT_EQ(controller_.phase(), kLanding);
+}
+
 TEST_F(CascadedControllerTest, ComesToRestWithoutALurchWhenItsPositionIsInDoubt) {
   fly_offboard();
   estimate_.v_NB_B.x() = 3.0;
