@@ -212,7 +212,7 @@ FcuCommand CascadedController::without_estimate(const StateEstimate& estimate, b
   // In the air silence is a fall when the pilot's throttle is down. The FCU's angle mode is no way out: that
   // stick limits the throttle there too.
   const double in_phase = seconds(estimate.stamp - memory().phase_began);
-  const bool blind = memory().blind && !overridden && in_phase <= params().silence_patience;
+  const bool blind = memory().blind && !overridden && !time_lost() && in_phase <= params().silence_patience;
   const double thrust = kBlindLift * params().mass * params().gravity;
   const bool knows_up = std::isfinite(estimate.roll + estimate.pitch) && estimate.w_NB_B.allFinite() &&
                         estimate.sigma_attitude.head<2>().maxCoeff() < kBlindTilt;

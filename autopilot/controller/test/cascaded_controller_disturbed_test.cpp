@@ -156,6 +156,24 @@ TEST_F(CascadedControllerTest, SaysNothingNearTheGroundOnALostEstimateAndLandsWh
   EXPECT_EQ(controller_.phase(), kLanding) << "not back to the mission by itself";
 }
 
+TEST_F(CascadedControllerTest, FallsSilentThoughTheStampOfALostEstimateStandsStill) {
+  for (const Time period : {Time{0}, Time{std::chrono::milliseconds(10)}}) {
+    controller_.set_period(period);
+    controller_.reset();
+    estimate_.health = Health::kGood;
+    estimate_.p_NB_N.z() = 0.0;
+    ask(FlightWish::kTakeOff);
+    run_for(0.1);
+    estimate_.p_NB_N.z() = -2.0;
+    run_for(0.1);
+    estimate_.health = Health::kLost;
+    const auto again = [&] { return controller_.run(kSomething, false, estimate_, status_); };
+    for (int i = 0; i < 50; ++i) ASSERT_NEAR(std::get<PassThroughCommand>(again()).thrust, 37.1, 0.1);
+    for (int i = 0; i < 100; ++i) again();
+    EXPECT_TRUE(std::holds_alternative<SilenceCommand>(again())) << seconds(period) << " s";
+  }
+}
+
 TEST_F(CascadedControllerTest, StaysSilentAfterALongLossUntilAskedToFlyOn) {
   fly_offboard();
   estimate_.health = Health::kLost;
