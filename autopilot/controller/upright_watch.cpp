@@ -16,6 +16,8 @@ void UprightWatch::look(const StateEstimate& estimate, bool usable, bool still,
                         const std::optional<double>& asked, bool taken) {
   if (!usable) {
     lies_.forget();
+    upright_.forget();
+    out_of_control_.forget();
     return;
   }
   const Time now = estimate.stamp;

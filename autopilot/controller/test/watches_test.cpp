@@ -19,13 +19,14 @@ class UprightWatchTest : public ::testing::Test {
     estimate_.q_NB = leaning(lean_degrees);
     for (int i = 0; i < seconds / 0.01; ++i) {
       estimate_.stamp += std::chrono::milliseconds(10);
-      watch_.look(estimate_, true, false, asked, taken);
+      watch_.look(estimate_, usable_, false, asked, taken);
     }
   }
   bool stops() const { return watch_.stops(estimate_.stamp); }
 
   UprightWatch watch_;
   StateEstimate estimate_;
+  bool usable_ = true;
 };
 
 TEST_F(UprightWatchTest, StopsAVehicleThatTumblesThoughItIsAskedToBeUpright) {
@@ -46,6 +47,24 @@ TEST_F(UprightWatchTest, LetsAVehicleThatWasUpsetRightItself) {
     look(0.6, 20.0, 1.0);
   }
   EXPECT_FALSE(stops());
+}
+
+TEST_F(UprightWatchTest, CountsNoTimeInWhichItSawNothing) {
+  look(2.0, 120.0, 1.0);
+  usable_ = false;
+  look(2.0, 120.0, 1.0);
+  usable_ = true;
+  look(2.5, 120.0, 1.0);
+  EXPECT_FALSE(stops());
+  look(0.6, 120.0, 1.0);
+  ASSERT_TRUE(stops());
+  // NOR is it upright in the pilot's hands because it was before and after
+  look(0.2, 10.0, 1.0, true);
+  usable_ = false;
+  look(2.0, 10.0, 1.0, true);
+  usable_ = true;
+  look(0.2, 10.0, 1.0, true);
+  EXPECT_TRUE(stops());
 }
 
 TEST_F(UprightWatchTest, LetsWhoAsksForItFlyOnItsSideOrTurnOver) {
