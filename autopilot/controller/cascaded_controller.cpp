@@ -11,10 +11,12 @@ namespace ironbird::autopilot {
 namespace {
 
 // So near to the height of the launch the vehicle is more likely on the ground than in the air.
-constexpr double kLow = 1.0;         // m
-constexpr double kOffGround = 0.3;   // m from the launch: the climb has begun
-constexpr double kBlindTilt = 0.35;  // rad, 1 sigma: less sure it is better not to turn
-constexpr double kBlindLift = 0.97;  // of the weight: rather down than up
+constexpr double kLow = 1.0;           // m
+constexpr double kOffGround = 0.3;     // m from the launch: the climb has begun
+constexpr double kBlindTilt = 0.35;    // rad, 1 sigma: less sure it is better not to turn
+constexpr double kBlindLift = 0.97;    // of what carried it: rather down than up
+constexpr double kLiftLag = 3.0;       // s: longer than a climb or a brake begins and ends
+constexpr double kMostMistaken = 1.5;  // times the weight, or its inverse, that the mass may be wrong by
 // A vehicle that sinks slower than this share of what it was told to is held up by something.
 constexpr double kStoppedShare = 0.4;
 
@@ -92,7 +94,21 @@ FcuCommand CascadedController::control(const ControlSetpoint& setpoint, bool lan
   if (step.phase == FlightPhase::kSilent) {
     return without_estimate(estimate, status.overridden() || rest_.may_lie(), dt);
   }
-  return fly(setpoint, estimate, status, dt, step.phase);
+  const FcuCommand command = fly(setpoint, estimate, status, dt, step.phase);
+  note_lift(command, estimate, status, dt);
+  return command;
+}
+
+void CascadedController::note_lift(const FcuCommand& command, const StateEstimate& estimate,
+                                   const FcuStatus& status, double dt) {
+  const auto* direct = std::get_if<PassThroughCommand>(&command);
+  const double height = memory().launch_N.z() - estimate.p_NB_N.z();
+  if (direct == nullptr || direct->thrust <= 0.0 || status.overridden() || std::abs(height) < kOffGround)
+    return;
+  const double upright = (estimate.q_NB * Vector3::UnitZ()).z();
+  const double lift = direct->thrust * upright / (params().mass * params().gravity);
+  double& known = notebook().lift;
+  known = std::clamp(known + (lift - known) * dt / (kLiftLag + dt), 1.0 / kMostMistaken, kMostMistaken);
 }
 
 FcuCommand CascadedController::stop() {
@@ -213,7 +229,7 @@ FcuCommand CascadedController::without_estimate(const StateEstimate& estimate, b
   // stick limits the throttle there too.
   const double in_phase = seconds(estimate.stamp - memory().phase_began);
   const bool blind = memory().blind && !overridden && !time_lost() && in_phase <= params().silence_patience;
-  const double thrust = kBlindLift * params().mass * params().gravity;
+  const double thrust = kBlindLift * memory().lift * params().mass * params().gravity;
   const bool knows_up = std::isfinite(estimate.roll + estimate.pitch) && estimate.w_NB_B.allFinite() &&
                         estimate.sigma_attitude.head<2>().maxCoeff() < kBlindTilt;
   if (blind && knows_up) {

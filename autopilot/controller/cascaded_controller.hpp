@@ -117,6 +117,8 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
   FcuCommand fly(const ControlSetpoint& setpoint, const StateEstimate& estimate, const FcuStatus& status,
                  double dt, FlightPhase phase);
   FcuCommand stop();
+  void note_lift(const FcuCommand& command, const StateEstimate& estimate, const FcuStatus& status,
+                 double dt);
   bool take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
                        const FcuStatus& status, FlightPhase phase) const;
   void enter(FlightPhase phase, FlightPhase from, const StateEstimate& estimate);

@@ -92,6 +92,18 @@ TEST_F(CascadedControllerTest, StaysLevelInTheAirForAWhileWithoutAnEstimate) {
   EXPECT_TRUE(is_silent());
 }
 
+TEST_F(CascadedControllerTest, HoldsABlindVehicleUpWithWhatHasCarriedItNotWithWhatItIsSaidToWeigh) {
+  for (const double weight : {30.0, 46.0}) {
+    controller_.reset();
+    estimate_.health = Health::kGood;
+    estimate_.p_NB_N.z() = 0.0;
+    fly_offboard();
+    run_for(20.0, AngleHeadingRateThrust{0.0, 0.0, 0.0, weight});
+    estimate_.health = Health::kLost;
+    EXPECT_NEAR(std::get<PassThroughCommand>(run()).thrust, 0.97 * weight, 0.1);
+  }
+}
+
 TEST_F(CascadedControllerTest, HoldsAPositionInDoubtThenLandsThere) {
   fly_offboard();
   estimate_.position_doubtful = true;
