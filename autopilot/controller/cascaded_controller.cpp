@@ -150,7 +150,8 @@ void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& s
   // On the ground the companion is silent, so that "not heard" alone tells nothing there.
   const bool left_alone = phase() == FlightPhase::kSilent && status.overridden();
   const bool taken = status.failsafe || status.pilot_holds();
-  rest_.look(estimate, is_usable(estimate), status, taken || left_alone, params());
+  rest_.look(estimate, is_usable(estimate), status, taken || left_alone || status.throttle_limited(),
+             params());
   if (!status.armed) upright_.forgive();
   const bool flies = phase() != FlightPhase::kDisarmed;
   upright_.look(estimate, is_usable(estimate), rest_.still(), flies ? cascade_.asked_upright() : std::nullopt,

@@ -13,6 +13,7 @@ constexpr double kShortestRest = 0.3;  // s, which is enough near the height of 
 constexpr double kFalls = 3.0;           // m/s^2
 constexpr double kCarriedTime = 0.2;     // s: a pilot's throttle comes to the outputs in a tenth of that
 constexpr double kLongestBounce = 0.25;  // s, which is 8 cm high: a fall, and no bounce, is longer
+constexpr double kOutputHolds = 0.5;     // s, that the FCU's word on its outputs holds
 constexpr double kLag = 0.05;            // s, of the acceleration
 constexpr double kBlow = 5.0;            // m/s^2 upwards with idling motors: drag does not end a fall so
 constexpr double kSinks = 1.5;  // m/s down: what sinks so fast is not lying, unless a blow blurred it
@@ -21,7 +22,8 @@ constexpr double kSinks = 1.5;  // m/s down: what sinks so fast is not lying, un
 
 void RestWatch::look(const StateEstimate& estimate, bool usable, const FcuStatus& status, bool taken,
                      const RestLimits& limits) {
-  const bool idle = status.greatest_output && *status.greatest_output < limits.idle_output;
+  const bool fresh = seconds(status.stamp - status.output_stamp) < kOutputHolds;
+  const bool idle = fresh && status.greatest_output && *status.greatest_output < limits.idle_output;
   if (!usable) {
     last_.reset();
     still_ = false;

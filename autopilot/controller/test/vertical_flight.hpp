@@ -19,10 +19,11 @@ class VerticalFlight {
     status.armed = true;
   }
 
-  /// @param pilot  lift of the pilot's throttle, share of the weight; none: the controller flies
-  void live(double seconds, std::optional<double> pilot = {}) {
+  /// @param pilot    lift of the pilot's throttle, share of the weight; none: the controller flies
+  /// @param holding  what he holds it with, bits of `rc_override`
+  void live(double seconds, std::optional<double> pilot = {}, int holding = 0x003) {
     for (int i = 0; i < std::lround(seconds / kStep); ++i) {
-      status.rc_override = pilot ? 0x003 : 0;
+      status.rc_override = pilot ? holding : 0;
       estimate.stamp += std::chrono::microseconds(2500);
       const FcuCommand& command = controller.run(NoSetpoint{}, false, estimate, status);
       const auto* direct = std::get_if<PassThroughCommand>(&command);
