@@ -15,6 +15,8 @@ struct RestLimits {
   double rest_time = 2.0;
   double idle_output = 0.2;
 
+  bool operator==(const RestLimits&) const = default;
+
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("rest_speed", self.rest_speed, "m/s", "slower than this the vehicle may lie on the ground", 0.01,
@@ -38,7 +40,7 @@ class RestWatch {
  public:
   /// One step.
   /// @param usable  the estimate is
-  /// @param taken   pilot or failsafe have the vehicle
+  /// @param taken   pilot or failsafe have the vehicle, or the pilot its throttle
   void look(const StateEstimate& estimate, bool usable, const FcuStatus& status, bool taken,
             const RestLimits& limits);
 
