@@ -17,10 +17,13 @@ void UprightWatch::look(const StateEstimate& estimate, bool usable, bool still,
   if (!usable) {
     lies_.forget();
     upright_.forget();
-    out_of_control_.forget();
+    blind_ = true;
     return;
   }
   const Time now = estimate.stamp;
+  if (blind_) out_of_control_.pass_over(now - seen_);
+  blind_ = false;
+  seen_ = now;
   leans_ = (estimate.q_NB * Vector3::UnitZ()).z() < kOverturned;
   lies_.note(leans_ && still, now);
   upright_.note(!leans_, now);
