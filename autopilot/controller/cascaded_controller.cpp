@@ -86,6 +86,8 @@ FcuCommand CascadedController::control(const ControlSetpoint& setpoint, bool lan
     enter(next.phase, before, estimate);
   }
   if (step.phase == FlightPhase::kDisarmed) {
+    // In silence the FCU would try to right what lies on its propellers.
+    if (status.armed && upright_.stops(estimate.stamp)) return stop();
     cascade_.reset();
     if (status.armed || !params().zeros_while_disarmed) return SilenceCommand{};
     return PassThroughCommand{};
