@@ -59,12 +59,18 @@ std::vector<ParameterSetting> inheritance(const SwapModule& wish, bool same_kind
 template <class Base>
 RequestOutcome exchange(std::unique_ptr<Base>& place, AutopilotConfig::Slot& slot, const SwapModule& wish,
                         const Registry<Base>& registry, const std::vector<ParameterSetting>& settings,
-                        ParameterTable& table, const Signals& signals) {
+                        ParameterTable& table, const Signals& signals, bool in_flight) {
   std::unique_ptr<Base> newcomer = registry.make(wish.kind);
   if (newcomer == nullptr) return {false, unknown_kind(wish.slot, wish.kind, registry)};
   ParameterTable own;
   newcomer->register_parameters(own, wish.slot);
   if (const std::string conflict = own.set_all(settings); !conflict.empty()) return {false, conflict};
+  if (in_flight && slot.kind == wish.kind) {
+    newcomer->configured_like(*place);
+    if (const std::string_view why = newcomer->parameter_danger(); !why.empty()) {
+      return {false, wish.slot + ": not in flight, " + std::string(why)};
+    }
+  }
   if (const std::string reason = newcomer->objection(signals); !reason.empty()) return {false, reason};
   settle(*newcomer, wish.slot, slot.period, table);
   newcomer->take_over(signals);
@@ -130,8 +136,7 @@ RequestOutcome Autopilot::request(const Request& request) {
 
 RequestOutcome Autopilot::set(const SetParameter& wish) {
   std::string why;
-  const bool in_flight = signals_.flight.fcu.armed && controller_->phase() != FlightPhase::kDisarmed;
-  const SetOutcome outcome = parameters_.set(wish.path, wish.value, in_flight, &why);
+  const SetOutcome outcome = parameters_.set(wish.path, wish.value, in_flight(), &why);
   if (outcome == SetOutcome::kAccepted) {
     std::erase_if(asked_, [&](const ParameterSetting& setting) { return setting.first == wish.path; });
     asked_.emplace_back(wish.path, wish.value);
@@ -145,6 +150,10 @@ RequestOutcome Autopilot::set(const SetParameter& wish) {
               slot.unit;
   }
   return {false, reason};
+}
+
+bool Autopilot::in_flight() const {
+  return signals_.flight.fcu.armed && controller_->phase() != FlightPhase::kDisarmed;
 }
 
 RequestOutcome Autopilot::fly(const OverrideSetpoint& wish) {
@@ -185,7 +194,7 @@ RequestOutcome Autopilot::swap(const SwapModule& wish) {
     AutopilotConfig::Slot& config = config_.*slot.config;
     const bool same_kind = config.kind == wish.kind;
     outcome = exchange(std::get<std::unique_ptr<Base>&>(places()), config, wish, modules_.*slot.kinds,
-                       inheritance(wish, same_kind, parameters_, asked_), parameters_, seen);
+                       inheritance(wish, same_kind, parameters_, asked_), parameters_, seen, in_flight());
   });
   return outcome.value_or(
       RequestOutcome{false, "slot \"" + wish.slot + "\" is unknown; there are: " + names});

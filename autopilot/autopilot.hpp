@@ -76,6 +76,7 @@ class Autopilot {
   RequestOutcome set(const SetParameter& wish);
   RequestOutcome fly(const OverrideSetpoint& wish);
   FlightStatus offered_flight() const;
+  bool in_flight() const;
   void note_flight();
   auto places() {
     return std::tie(estimator_, path_planner_, path_manager_, trajectory_follower_, controller_);

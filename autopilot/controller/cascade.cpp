@@ -10,7 +10,6 @@ namespace ironbird::autopilot {
 namespace {
 
 constexpr double kSmallestCosine = 0.5;  // of the tilt, where thrust makes up for it: 60 degrees
-constexpr double kSlow = 0.5;            // m/s, from where stopping at once is gentle: 1.1 m/s^2
 constexpr double kSmallestLift = 0.1;    // share of gravity, so that an acceleration always has an attitude
 
 double limited(double value, double limit) {

@@ -10,6 +10,10 @@
 
 namespace ironbird::autopilot {
 
+/// Slower than this, m/s, a vehicle is as good as at rest: it stops at once with 1.1 m/s^2, and its landing
+/// gear slides without tipping.
+inline constexpr double kSlow = 0.5;
+
 /// A place to come to and rest at, or to rest above while sinking.
 struct Approach {
   Vector3 p_N = Vector3::Zero();
@@ -53,7 +57,7 @@ class Cascade {
   FcuCommand come_to(const Approach& approach, const StateEstimate& estimate, const Step& step);
 
   /// Where `come_to` would bring the vehicle to rest without asking for another velocity than it has now. Its
-  /// height is the present one. Slower than 0.5 m/s it is where the vehicle is.
+  /// height is the present one. Slower than kSlow it is where the vehicle is.
   Vector3 resting_place(const StateEstimate& estimate, double deceleration) const;
 
   /// One step of a descent on height and attitude alone: level, no turn, no horizontal loop.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "autopilot/math/pid.hpp"
@@ -84,8 +86,16 @@ struct CascadeParams {
       return "min_altitude_for_attitude_control must not grow";
     }
     if (!steerable(was, now)) {
-      return "torques, and gains of roll and pitch, must stay within a third and three times what was "
+      return "torques, gains and derivative_time_constant must stay within a third and three times what was "
              "configured";
+    }
+    if (now.acceleration_output != was.acceleration_output) return "acceleration_output must stay as it is";
+    if (!stays_below(now.max_roll, was.max_roll, 1.0) || !stays_below(now.max_pitch, was.max_pitch, 1.0)) {
+      return "max_roll and max_pitch must stay below 1 rad";
+    }
+    if (!stays_above(now.max_climb_speed, was.max_climb_speed, 0.5) ||
+        !stays_above(now.max_descent_speed, was.max_descent_speed, 0.5)) {
+      return "max_climb_speed and max_descent_speed must stay above 0.5 m/s";
     }
     const bool brakes = stays_above(now.max_climb_acceleration, was.max_climb_acceleration, 2.0) &&
                         stays_above(now.max_descent_acceleration, was.max_descent_acceleration, 1.0);
@@ -93,16 +103,24 @@ struct CascadeParams {
   }
 
  private:
+  static bool stay(const PidGains& now, const PidGains& was, double factor) {
+    return stays(now.kp, was.kp, factor) && stays(now.ki, was.ki, factor) && stays(now.kd, was.kd, factor);
+  }
+
   static bool steerable(const CascadeParams& was, const CascadeParams& now) {
-    const auto near = [](const PidGains& a, const PidGains& b) {
-      return stays(a.kp, b.kp, kMuch) && stays(a.kd, b.kd, kMuch);
-    };
-    return stays(now.max_roll_torque, was.max_roll_torque, kMuch) &&
-           stays(now.max_pitch_torque, was.max_pitch_torque, kMuch) &&
-           stays(now.max_yaw_torque, was.max_yaw_torque, kMuch) &&
-           near(now.roll_to_torque, was.roll_to_torque) && near(now.pitch_to_torque, was.pitch_to_torque) &&
-           near(now.roll_rate_to_torque, was.roll_rate_to_torque) &&
-           near(now.pitch_rate_to_torque, was.pitch_rate_to_torque);
+    constexpr std::array kGains{&CascadeParams::pos_n_to_vel,        &CascadeParams::pos_e_to_vel,
+                                &CascadeParams::pos_d_to_vel,        &CascadeParams::vel_n_to_accel,
+                                &CascadeParams::vel_e_to_accel,      &CascadeParams::vel_d_to_accel,
+                                &CascadeParams::yaw_to_rate,         &CascadeParams::roll_to_torque,
+                                &CascadeParams::pitch_to_torque,     &CascadeParams::yaw_to_torque,
+                                &CascadeParams::roll_rate_to_torque, &CascadeParams::pitch_rate_to_torque,
+                                &CascadeParams::yaw_rate_to_torque};
+    constexpr std::array kLimits{&CascadeParams::max_roll_torque, &CascadeParams::max_pitch_torque,
+                                 &CascadeParams::max_yaw_torque, &CascadeParams::derivative_time_constant};
+    return std::all_of(kGains.begin(), kGains.end(),
+                       [&](auto gains) { return stay(now.*gains, was.*gains, kMuch); }) &&
+           std::all_of(kLimits.begin(), kLimits.end(),
+                       [&](auto limit) { return stays(now.*limit, was.*limit, kMuch); });
   }
 
   template <class Self, class Visit>

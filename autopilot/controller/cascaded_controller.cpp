@@ -11,10 +11,12 @@ namespace ironbird::autopilot {
 namespace {
 
 // So near to the height of the launch the vehicle is more likely on the ground than in the air.
-constexpr double kLow = 1.0;         // m
-constexpr double kOffGround = 0.3;   // m above the launch: the climb has begun
-constexpr double kBlindTilt = 0.35;  // rad, 1 sigma: less sure it is better not to turn
-constexpr double kBlindLift = 0.97;  // of the weight: rather down than up
+constexpr double kLow = 1.0;           // m
+constexpr double kOffGround = 0.3;     // m from the launch: the climb has begun
+constexpr double kBlindTilt = 0.35;    // rad, 1 sigma: less sure it is better not to turn
+constexpr double kBlindLift = 0.97;    // of what carried it: rather down than up
+constexpr double kLiftLag = 3.0;       // s: longer than a climb or a brake begins and ends
+constexpr double kMostMistaken = 1.5;  // times the weight, or its inverse, that the mass may be wrong by
 // A vehicle that sinks slower than this share of what it was told to is held up by something.
 constexpr double kStoppedShare = 0.4;
 
@@ -33,7 +35,6 @@ void CascadedController::reset() {
   wishes_.fill(false);
   armed_at_.reset();
   seen_disarmed_ = false;
-  blind_since_.reset();
   rest_.reset();
   upright_.reset();
   descent_.reset();
@@ -42,6 +43,8 @@ void CascadedController::reset() {
 void CascadedController::take_over(const Signals& signals) {
   Controller::take_over(signals);
   touch_down_.restore(memory().on_ground);
+  upright_.restore(memory().given_up);
+  rest_.restore(memory().may_lie);
   if (!signals.flight.fcu.overridden()) cascade_.resume(signals.command, signals.estimate);
   if (memory().has_point) return;
   notebook().has_point = true;
@@ -58,7 +61,8 @@ RequestOutcome CascadedController::request(FlightWish wish, const StateEstimate&
                                                  .estimate_usable = is_usable(estimate),
                                                  .position_known = estimate.position_known,
                                                  .position_doubtful = estimate.position_doubtful,
-                                                 .on_ground = touch_down_.felt()});
+                                                 .on_ground = touch_down_.felt(),
+                                                 .overturned = upright_.overturned()});
   if (!reason.empty()) return {false, std::string(reason)};
   wishes_[static_cast<std::size_t>(wish)] = true;
   return {true, ""};
@@ -82,15 +86,31 @@ FcuCommand CascadedController::control(const ControlSetpoint& setpoint, bool lan
     enter(next.phase, before, estimate);
   }
   if (step.phase == FlightPhase::kDisarmed) {
+    // In silence the FCU would try to right what lies on its propellers.
+    if (status.armed && upright_.stops(estimate.stamp)) return stop();
     cascade_.reset();
     if (status.armed || !params().zeros_while_disarmed) return SilenceCommand{};
     return PassThroughCommand{};
   }
   if (upright_.stops(estimate.stamp)) return stop();
   if (step.phase == FlightPhase::kSilent) {
-    return without_estimate(estimate, status.overridden() || rest_.in_doubt(), dt);
+    return without_estimate(estimate, status.overridden() || rest_.may_lie(), dt);
   }
-  return fly(setpoint, estimate, status, dt, step.phase);
+  const FcuCommand command = fly(setpoint, estimate, status, dt, step.phase);
+  note_lift(command, estimate, status, dt);
+  return command;
+}
+
+void CascadedController::note_lift(const FcuCommand& command, const StateEstimate& estimate,
+                                   const FcuStatus& status, double dt) {
+  const auto* direct = std::get_if<PassThroughCommand>(&command);
+  const double height = memory().launch_N.z() - estimate.p_NB_N.z();
+  if (direct == nullptr || direct->thrust <= 0.0 || status.overridden() || std::abs(height) < kOffGround)
+    return;
+  const double upright = (estimate.q_NB * Vector3::UnitZ()).z();
+  const double lift = direct->thrust * upright / (params().mass * params().gravity);
+  double& known = notebook().lift;
+  known = std::clamp(known + (lift - known) * dt / (kLiftLag + dt), 1.0 / kMostMistaken, kMostMistaken);
 }
 
 FcuCommand CascadedController::stop() {
@@ -101,14 +121,14 @@ FcuCommand CascadedController::stop() {
 
 FcuCommand CascadedController::fly(const ControlSetpoint& setpoint, const StateEstimate& estimate,
                                    const FcuStatus& status, double dt, FlightPhase phase) {
-  const bool overridden = status.overridden() || rest_.in_doubt();
+  const bool overridden = status.overridden() || rest_.may_lie();
   const bool stands =
-      phase == FlightPhase::kTakeOff && memory().launch_N.z() - estimate.p_NB_N.z() < kOffGround;
+      phase == FlightPhase::kTakeOff && std::abs(memory().launch_N.z() - estimate.p_NB_N.z()) < kOffGround;
   if (overridden && !stands && is_usable(estimate)) {
     notebook().point_N = cascade_.resting_place(estimate, params().braking_acceleration);
     notebook().point_heading = estimate.heading;
   }
-  if (rest_.in_doubt()) return stop();
+  if (rest_.may_lie()) return stop();
   Cascade::Step how{dt, !overridden, params().take_off_pass_through};
   switch (phase) {
     case FlightPhase::kTakeOff:
@@ -132,20 +152,26 @@ void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& s
   // On the ground the companion is silent, so that "not heard" alone tells nothing there.
   const bool left_alone = phase() == FlightPhase::kSilent && status.overridden();
   const bool taken = status.failsafe || status.pilot_holds();
-  rest_.look(estimate, is_usable(estimate), status, taken || left_alone, params());
-  if (phase() == FlightPhase::kDisarmed) upright_.reset();
-  upright_.look(estimate, is_usable(estimate), rest_.still(), cascade_.asked_upright(), taken);
+  rest_.look(estimate, is_usable(estimate), status, taken || left_alone || status.throttle_limited(),
+             params());
+  if (!status.armed) upright_.forgive();
+  const bool flies = phase() != FlightPhase::kDisarmed;
+  upright_.look(estimate, is_usable(estimate), rest_.still(), flies ? cascade_.asked_upright() : std::nullopt,
+                taken);
+  if (!estimate.position_doubtful) notebook().last_sure = estimate.stamp;
+  notebook().given_up = upright_.given_up();
+  notebook().may_lie = rest_.may_lie();
 }
 
 bool CascadedController::rests_with_pilot(const StateEstimate& estimate) const {
-  const bool low = memory().launched && memory().launch_N.z() - estimate.p_NB_N.z() < kLow;
+  const bool low = memory().launched && std::abs(memory().launch_N.z() - estimate.p_NB_N.z()) < kLow;
   return rest_.rests(estimate.stamp, low, params());
 }
 
 bool CascadedController::take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
                                          const FcuStatus& status, FlightPhase phase) const {
   // Whoever takes the vehicle between the grant and the step keeps it.
-  if (status.failsafe || status.pilot_holds()) return false;
+  if (status.failsafe || status.pilot_holds() || upright_.overturned()) return false;
   if (wishes_[static_cast<std::size_t>(FlightWish::kTakeOff)]) return true;
   return params().take_off_on_arming && phase == FlightPhase::kDisarmed && armed_at_ &&
          seconds(estimate.stamp - *armed_at_) <= params().arming_patience &&
@@ -162,7 +188,8 @@ PhaseInputs CascadedController::inputs(const ControlSetpoint& setpoint, bool lan
   in.estimate_usable = is_usable(estimate);
   in.position_known = estimate.position_known;
   in.position_doubtful = estimate.position_doubtful;
-  in.doubt_long = in_phase >= params().doubt_patience;
+  const double in_doubt = std::min(in_phase, seconds(estimate.stamp - memory().last_sure));
+  in.doubt_long = in_doubt >= params().doubt_patience;
   in.setpoint_valid = !std::holds_alternative<NoSetpoint>(setpoint);
   in.take_off_wanted = take_off_wanted(setpoint, estimate, status, phase);
   in.height_reached =
@@ -184,10 +211,10 @@ void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateE
     rest_.reset();
   }
   FlightMemory& m = notebook();
-  const bool high = m.launch_N.z() - estimate.p_NB_N.z() > kLow;
-  blind_since_.reset();
-  if (phase == FlightPhase::kSilent && m.launched && !m.on_ground && high) blind_since_ = estimate.stamp;
+  const bool high = std::abs(m.launch_N.z() - estimate.p_NB_N.z()) > kLow;
+  m.blind = phase == FlightPhase::kSilent && m.launched && !m.on_ground && high;
   m.on_ground = false;
+  m.phase_began = estimate.stamp;                                      // already in this step
   if (from == FlightPhase::kTakeOff && phase == FlightPhase::kHold) {  // over the place where it climbed
     m.point_N.z() = std::min(estimate.p_NB_N.z(), m.launch_N.z() - params().take_off_height);
     return;
@@ -203,9 +230,9 @@ void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateE
 FcuCommand CascadedController::without_estimate(const StateEstimate& estimate, bool overridden, double dt) {
   // In the air silence is a fall when the pilot's throttle is down. The FCU's angle mode is no way out: that
   // stick limits the throttle there too.
-  const bool blind =
-      blind_since_ && !overridden && seconds(estimate.stamp - *blind_since_) <= params().silence_patience;
-  const double thrust = kBlindLift * params().mass * params().gravity;
+  const double in_phase = seconds(estimate.stamp - memory().phase_began);
+  const bool blind = memory().blind && !overridden && !time_lost() && in_phase <= params().silence_patience;
+  const double thrust = kBlindLift * memory().lift * params().mass * params().gravity;
   const bool knows_up = std::isfinite(estimate.roll + estimate.pitch) && estimate.w_NB_B.allFinite() &&
                         estimate.sigma_attitude.head<2>().maxCoeff() < kBlindTilt;
   if (blind && knows_up) {

@@ -59,14 +59,11 @@ struct CascadedControllerParams : CascadeParams, RestLimits {
     visit("touch_down_speed", self.touch_down_speed, "m/s", "slower than this nothing moves", 0.01, 1.0);
     visit("touch_down_lift", self.touch_down_lift, "1",
           "share of the weight below which the vehicle ought to sink", 0.1, 1.0);
-    visit("touch_down_time", self.touch_down_time, "s", "how long both must last on the ground", 0.1, 10.0);
+    visit("touch_down_time", self.touch_down_time, "s", "how long both must last on the ground", 0.5, 10.0);
     visit("arming_patience", self.arming_patience, "s",
           "how long after arming it still counts as the request to take off", 0.1, 30.0);
     visit("silence_patience", self.silence_patience, "s",
-          "without an estimate it is kept level for so long; one that is back by then is landed on, later "
-          "only by "
-          "request",
-          0.0, 10.0);
+          "how long it is kept level without an estimate; one that is back by then is landed on", 0.0, 10.0);
     visit("doubt_patience", self.doubt_patience, "s",
           "how long it holds a position that the satellites contradict, before it lands there", 0.0, 600.0);
     visit("braking_acceleration", self.braking_acceleration, "m/s^2",
@@ -79,10 +76,24 @@ struct CascadedControllerParams : CascadeParams, RestLimits {
     if (p.touch_down_speed >= std::min(p.landing_speed, p.descent_speed)) {
       return "touch_down_speed must be less than landing_speed and descent_speed";
     }
+    if (p.landing_speed > p.max_descent_speed) return "landing_speed must not be above max_descent_speed";
     if (p.take_off_height_threshold >= p.take_off_height) {
       return "take_off_height_threshold must be less than take_off_height";
     }
     return {};
+  }
+
+  static std::string_view danger(const CascadedControllerParams& was, const CascadedControllerParams& now) {
+    if (const std::string_view reason = CascadeParams::danger(was, now); !reason.empty()) return reason;
+    if (now.take_off_pass_through != was.take_off_pass_through) {
+      return "take_off_pass_through must stay as it is";
+    }
+    const bool same_ground = static_cast<const RestLimits&>(now) == static_cast<const RestLimits&>(was) &&
+                             now.touch_down_speed == was.touch_down_speed &&
+                             now.touch_down_lift == was.touch_down_lift &&
+                             now.touch_down_time == was.touch_down_time;
+    return same_ground ? ""
+                       : "what the ground is felt by (touch_down_, rest_, idle_output) must stay as it is";
   }
 };
 
@@ -117,6 +128,8 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
   FcuCommand fly(const ControlSetpoint& setpoint, const StateEstimate& estimate, const FcuStatus& status,
                  double dt, FlightPhase phase);
   FcuCommand stop();
+  void note_lift(const FcuCommand& command, const StateEstimate& estimate, const FcuStatus& status,
+                 double dt);
   bool take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,
                        const FcuStatus& status, FlightPhase phase) const;
   void enter(FlightPhase phase, FlightPhase from, const StateEstimate& estimate);
@@ -129,10 +142,9 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
 
   Cascade cascade_;
   TouchDown touch_down_;
-  std::array<bool, 3> wishes_{};     // one for each FlightWish, for the next step only
-  std::optional<Time> blind_since_;  // silence fell in the air
-  bool seen_disarmed_ = false;       // by this object, in the step before
-  std::optional<Time> armed_at_;     // none: not armed, or not seen to arm
+  std::array<bool, 3> wishes_{};  // one for each FlightWish, for the next step only
+  bool seen_disarmed_ = false;    // by this object, in the step before
+  std::optional<Time> armed_at_;  // none: not armed, or not seen to arm
   RestWatch rest_;
   UprightWatch upright_;
   Descent descent_;

@@ -1,5 +1,7 @@
 #include "autopilot/controller/controller.hpp"
 
+#include <algorithm>
+
 #include "autopilot/math/finite.hpp"
 #include "autopilot/signals.hpp"
 
@@ -12,7 +14,7 @@ const ControlSetpoint kNothing = NoSetpoint{};
 const FcuCommand& Controller::run(const ControlSetpoint& setpoint, bool landing,
                                   const StateEstimate& estimate, const FcuStatus& status) {
   double dt = 0.0;
-  if (!divider_.due(estimate.stamp, period(), dt)) return last_;
+  if (!stands_still(estimate) && !divider_.due(estimate.stamp, period(), dt)) return last_;
   if (estimate.position_resets != position_resets_) {
     // Not the vehicle has moved, but where it is said to be.
     memory_.point_N += estimate.position_reset_N;
@@ -32,12 +34,21 @@ const FcuCommand& Controller::run(const ControlSetpoint& setpoint, bool landing,
   return last_;
 }
 
+bool Controller::stands_still(const StateEstimate& estimate) {
+  const bool so = estimate.stamp == stamp_ && !is_usable(estimate.health);
+  standing_still_ = so ? std::min(standing_still_ + 1, kMostStandingStill + 1) : 0;
+  stamp_ = estimate.stamp;
+  return so;
+}
+
 void Controller::reset() {
   last_ = SilenceCommand{};
   step_ = PhaseStep{};
   memory_ = FlightMemory{};
   position_resets_ = 0;
   divider_.reset();
+  stamp_ = Time{-1};
+  standing_still_ = 0;
 }
 
 void Controller::take_over(const Signals& signals) {

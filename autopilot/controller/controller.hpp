@@ -13,7 +13,8 @@ namespace ironbird::autopilot {
 class Controller : public Module {
  public:
   /// One step. When the estimated position has jumped, the point to hold jumps along. Non-finite commands are
-  /// replaced by SilenceCommand; a non-finite setpoint is taken as none.
+  /// replaced by SilenceCommand; a non-finite setpoint is taken as none. An estimate that is lost and whose
+  /// stamp stands still is worked on whatever the period, for its next stamp may never come.
   /// @param setpoint  what to fly in the offboard phase
   /// @param landing   the trajectory has come to a landing waypoint: begin the descent
   /// @return the command; valid until the next call
@@ -41,14 +42,23 @@ class Controller : public Module {
   virtual FcuCommand control(const ControlSetpoint& setpoint, bool landing, const StateEstimate& estimate,
                              const FcuStatus& status, double dt, PhaseStep& step) = 0;
 
+  /// The estimate is lost and its stamp has not moved for so many steps that no duration means anything.
+  bool time_lost() const { return standing_still_ > kMostStandingStill; }
+
   /// The memory, to write in.
   FlightMemory& notebook() { return memory_; }
 
  private:
+  static constexpr int kMostStandingStill = 100;  // 0.25 s of a common IMU: a moved clock is followed sooner
+
+  bool stands_still(const StateEstimate& estimate);
+
   FcuCommand last_ = SilenceCommand{};
   PhaseStep step_;
   FlightMemory memory_;
   std::uint32_t position_resets_ = 0;  // seen
+  Time stamp_{-1};                     // of the step before
+  int standing_still_ = 0;             // steps
   Divider divider_;
 };
 

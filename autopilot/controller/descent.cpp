@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "autopilot/controller/cascade.hpp"
+
 namespace ironbird::autopilot {
 
 namespace {
 
-constexpr double kAtRest = 0.5;    // m/s: a landing gear slides so slowly without tipping
 constexpr double kPatience = 2.0;  // s, for what drives it on; the ground is better than an endless brake
 
 double horizontal_speed(const StateEstimate& estimate) {
@@ -18,7 +19,7 @@ double horizontal_speed(const StateEstimate& estimate) {
 double Descent::sink(const StateEstimate& estimate, double wanted, double dt, double deceleration,
                      double catching) {
   if (!v_down_) begin(estimate, deceleration);
-  const bool moves = estimate.position_known && horizontal_speed(estimate) > kAtRest;
+  const bool moves = estimate.position_known && horizontal_speed(estimate) > kSlow;
   brakes_ = brakes_ && moves && estimate.stamp < brake_ends_;
   const double change = (brakes_ ? 0.0 : wanted) - *v_down_;
   *v_down_ += std::clamp(change, -catching * dt, deceleration * dt);

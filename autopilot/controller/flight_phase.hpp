@@ -21,7 +21,7 @@ struct PhaseInputs {
   bool estimate_usable = false;    ///< height and attitude can be flown on
   bool position_known = true;      ///< so can the horizontal position
   bool position_doubtful = false;  ///< the satellites contradict it
-  bool doubt_long = false;         ///< they have for so long, in this hold, that it lands
+  bool doubt_long = false;         ///< they have for so long in this phase that it lands
   bool take_off_wanted = false;    ///< by request, or by arming
   bool height_reached = false;     ///< near enough to the take-off height
   bool hold_over = false;          ///< the hold after take-off has lasted long enough
@@ -39,7 +39,7 @@ struct PhaseInputs {
     visit("estimate_usable", self.estimate_usable, "1", "height and attitude can be flown on");
     visit("position_known", self.position_known, "1", "so can the horizontal position");
     visit("position_doubtful", self.position_doubtful, "1", "the satellites contradict it");
-    visit("doubt_long", self.doubt_long, "1", "they have for so long, in this hold, that it lands");
+    visit("doubt_long", self.doubt_long, "1", "they have for so long in this phase that it lands");
     visit("take_off_wanted", self.take_off_wanted, "1", "by request, or by arming");
     visit("height_reached", self.height_reached, "1", "near enough to the take-off height");
     visit("hold_over", self.hold_over, "1", "the hold has lasted long enough");
@@ -77,6 +77,7 @@ struct WishConditions {
   bool position_known = true;
   bool position_doubtful = false;
   bool on_ground = false;
+  bool overturned = false;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -88,6 +89,7 @@ struct WishConditions {
     visit("position_known", self.position_known, "1", "so can the horizontal position");
     visit("position_doubtful", self.position_doubtful, "1", "the satellites contradict it");
     visit("on_ground", self.on_ground, "1", "touch-down was felt");
+    visit("overturned", self.overturned, "1", "it lies on its side or back, or was out of control");
   }
 };
 
@@ -105,6 +107,7 @@ constexpr std::string_view why_not(FlightWish wish, const WishConditions& now) {
   }
   if (wish == FlightWish::kTakeOff) {
     if (!stands) return "it is flying already";
+    if (now.overturned) return "it is overturned or was out of control: stand it up and disarm";
     return now.position_doubtful ? "the satellites contradict the position" : "";
   }
   if (stands) return "it is on the ground";

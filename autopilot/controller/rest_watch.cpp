@@ -13,32 +13,38 @@ constexpr double kShortestRest = 0.3;  // s, which is enough near the height of 
 constexpr double kFalls = 3.0;           // m/s^2
 constexpr double kCarriedTime = 0.2;     // s: a pilot's throttle comes to the outputs in a tenth of that
 constexpr double kLongestBounce = 0.25;  // s, which is 8 cm high: a fall, and no bounce, is longer
+constexpr double kOutputHolds = 0.5;     // s, that the FCU's word on its outputs holds
 constexpr double kLag = 0.05;            // s, of the acceleration
+constexpr double kBlow = 5.0;            // m/s^2 upwards with idling motors: drag does not end a fall so
+constexpr double kSinks = 1.5;  // m/s down: what sinks so fast is not lying, unless a blow blurred it
 
 }  // namespace
 
 void RestWatch::look(const StateEstimate& estimate, bool usable, const FcuStatus& status, bool taken,
                      const RestLimits& limits) {
-  const bool idle = status.greatest_output && *status.greatest_output < limits.idle_output;
+  const bool fresh = seconds(status.stamp - status.output_stamp) < kOutputHolds;
+  const bool idle = fresh && status.greatest_output && *status.greatest_output < limits.idle_output;
   if (!usable) {
     last_.reset();
     still_ = false;
     still_with_others_.forget();
     carried_.forget();
     falling_.forget();
-    in_doubt_ = taken ? idle : in_doubt_ && idle;
+    fell_ = struck_ = false;
+    may_lie_ = taken ? idle : may_lie_ && idle;
     return;
   }
   feel_fall(estimate, idle);
   const double speed = estimate.position_known ? estimate.v_NB_B.norm() : std::abs(estimate.v_NB_N().z());
   still_ = speed < limits.rest_speed && estimate.w_NB_B.norm() < limits.rest_rate;
+  const bool sinks = fell_ || (!struck_ && v_down_ > kSinks);
   if (taken) {
-    in_doubt_ = idle;
-  } else if (falling_.lasts(kLongestBounce, estimate.stamp) || !idle) {
-    in_doubt_ = false;
+    may_lie_ = idle;
+  } else if (sinks || !idle) {
+    may_lie_ = false;
   }
-  still_with_others_.note(still_ && (taken || in_doubt_ || status.overridden()), estimate.stamp);
-  carried_.note(idle && std::abs(a_down_) < kFalls && (taken || in_doubt_), estimate.stamp);
+  still_with_others_.note(still_ && (taken || may_lie_ || status.overridden()), estimate.stamp);
+  carried_.note(idle && !sinks && std::abs(a_down_) < kFalls && (taken || may_lie_), estimate.stamp);
 }
 
 void RestWatch::feel_fall(const StateEstimate& estimate, bool idle) {
@@ -49,11 +55,21 @@ void RestWatch::feel_fall(const StateEstimate& estimate, bool idle) {
   last_ = estimate.stamp;
   v_down_ = v_down;
   falling_.note(idle && a_down_ >= kFalls, estimate.stamp);
+  if (falling_.lasts(kLongestBounce, estimate.stamp)) {
+    fell_ = true;
+    struck_ = false;
+  } else if (fell_ && a_down_ < -kBlow) {
+    fell_ = false;
+    struck_ = true;
+  }
+  if (!idle) fell_ = struck_ = false;
 }
 
 bool RestWatch::rests(Time now, bool low, const RestLimits& limits) const {
-  return carried_.lasts(kCarriedTime, now) ||
-         still_with_others_.lasts(low ? std::min(kShortestRest, limits.rest_time) : limits.rest_time, now);
+  const auto enough = [&](double when_low) {
+    return low ? std::min(when_low, limits.rest_time) : limits.rest_time;
+  };
+  return carried_.lasts(enough(kCarriedTime), now) || still_with_others_.lasts(enough(kShortestRest), now);
 }
 
 void RestWatch::reset() {

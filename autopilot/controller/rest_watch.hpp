@@ -15,6 +15,8 @@ struct RestLimits {
   double rest_time = 2.0;
   double idle_output = 0.2;
 
+  bool operator==(const RestLimits&) const = default;
+
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("rest_speed", self.rest_speed, "m/s", "slower than this the vehicle may lie on the ground", 0.01,
@@ -28,16 +30,17 @@ struct RestLimits {
 };
 
 /// Feels the ground while pilot or failsafe have the vehicle: it lies still, or its motors idle and yet it
-/// does not fall. The second needs no velocity, which after a hard touch-down is wrong by metres per second:
-/// the blow is shorter than a sample.
+/// neither falls nor sinks fast. Only a blow ends a fall, for at its greatest speed the air carries the
+/// vehicle. After a blow its velocity is not looked at, being wrong by metres per second: the blow is shorter
+/// than a sample.
 ///
-/// Who hands the vehicle back with idling motors leaves it in doubt whether it flies. The doubt ends when it
-/// falls for as long as no bounce lasts, or lies.
+/// When it is handed back with idling motors it may lie or fly, until it falls for as long as no bounce
+/// lasts, or is felt to lie.
 class RestWatch {
  public:
   /// One step.
   /// @param usable  the estimate is
-  /// @param taken   pilot or failsafe have the vehicle
+  /// @param taken   pilot or failsafe have the vehicle, or the pilot its throttle
   void look(const StateEstimate& estimate, bool usable, const FcuStatus& status, bool taken,
             const RestLimits& limits);
 
@@ -48,13 +51,15 @@ class RestWatch {
   bool still_with_others() const { return still_with_others_.so(); }
 
   /// It was handed back with idling motors, and it is not known yet whether it flies.
-  bool in_doubt() const { return in_doubt_; }
+  bool may_lie() const { return may_lie_; }
 
   /// It lies on the ground and was put there by others.
-  /// @param low  near the height of the launch, where less stillness convinces
+  /// @param low  near the height of the launch, where less time convinces
   bool rests(Time now, bool low, const RestLimits& limits) const;
 
   void reset();
+  /// Goes on where another one stopped.
+  void restore(bool may_lie) { may_lie_ = may_lie; }
 
  private:
   void feel_fall(const StateEstimate& estimate, bool idle);
@@ -63,10 +68,12 @@ class RestWatch {
   double v_down_ = 0.0;       // m/s, of the step before
   double a_down_ = 0.0;       // m/s^2, low-passed
   bool still_ = false;
-  bool in_doubt_ = false;
+  bool may_lie_ = false;
   Since still_with_others_;
-  Since carried_;  // although its motors idle, in other hands
-  Since falling_;  // with idling motors
+  Since carried_;        // although its motors idle, in other hands
+  Since falling_;        // with idling motors
+  bool fell_ = false;    // for longer than a bounce, and nothing has stopped it since
+  bool struck_ = false;  // a blow has ended the last fall
 };
 
 }  // namespace ironbird::autopilot

@@ -17,6 +17,10 @@ class Since {
     }
   }
   void forget() { began_.reset(); }
+  /// Does not count the last `gap`.
+  void pass_over(Time gap) {
+    if (began_) *began_ += gap;
+  }
   bool so() const { return began_.has_value(); }
   /// @param duration  s
   bool lasts(double duration, Time now) const { return began_ && seconds(now - *began_) >= duration; }

@@ -16,21 +16,31 @@ void UprightWatch::look(const StateEstimate& estimate, bool usable, bool still,
                         const std::optional<double>& asked, bool taken) {
   if (!usable) {
     lies_.forget();
+    upright_.forget();
+    blind_ = true;
     return;
   }
   const Time now = estimate.stamp;
-  const bool leans = (estimate.q_NB * Vector3::UnitZ()).z() < kOverturned;
-  lies_.note(leans && still, now);
-  upright_.note(!leans, now);
+  if (blind_) out_of_control_.pass_over(now - seen_);
+  blind_ = false;
+  seen_ = now;
+  leans_ = (estimate.q_NB * Vector3::UnitZ()).z() < kOverturned;
+  lies_.note(leans_ && still, now);
+  upright_.note(!leans_, now);
   const bool righted = upright_.lasts(kRightedItself, now);
   const bool expected_upright = asked && *asked > kAskedUpright;
   if (taken || !expected_upright || righted) {
     out_of_control_.forget();
   } else {
-    out_of_control_.note(leans || out_of_control_.so(), now);
+    out_of_control_.note(leans_ || out_of_control_.so(), now);
   }
   if (out_of_control_.lasts(kOutOfControl, now)) given_up_ = true;
   if (taken && righted) given_up_ = false;
+}
+
+void UprightWatch::forgive() {
+  given_up_ = false;
+  out_of_control_.forget();
 }
 
 bool UprightWatch::stops(Time now) const {

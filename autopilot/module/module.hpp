@@ -48,6 +48,10 @@ class Module {
   /// Called after parameters were set before flight: they are what the module is configured to.
   virtual void parameters_configured() { parameters_changed(); }
 
+  /// Called on a newcomer of the same kind: its changes in flight are measured by what its predecessor was
+  /// configured to, not by what had been made of that.
+  virtual void configured_like(const Module& /*predecessor*/) {}
+
   /// Which of the present parameters is so far from what was configured that a vehicle in flight could come
   /// down; empty when none is.
   virtual std::string_view parameter_danger() const { return {}; }

@@ -37,6 +37,9 @@ class Tunable : public Base {
     configured_ = params_;
     on_parameters();
   }
+  void configured_like(const Module& predecessor) final {
+    if (const auto* same = dynamic_cast<const Tunable*>(&predecessor)) configured_ = same->configured_;
+  }
   std::string_view parameter_conflict() const final {
     if constexpr (requires { Params::conflict(params_); }) {
       return Params::conflict(params_);

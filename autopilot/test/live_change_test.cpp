@@ -30,6 +30,21 @@ TEST_F(LiveChangesTest, RefusesInFlightWhatCouldBringItDownAndNothingOnTheGround
                                    {"controller.max_climb_acceleration", 0.1},
                                    {"controller.roll_to_torque.kp", 0.0},
                                    {"controller.pitch_to_torque.kd", 0.0},
+                                   {"controller.roll_to_torque.ki", 50.0},
+                                   {"controller.vel_d_to_accel.ki", 50.0},
+                                   {"controller.pos_n_to_vel.kp", 50.0},
+                                   {"controller.yaw_rate_to_torque.kp", 0.0},
+                                   {"controller.derivative_time_constant", 1.0},
+                                   {"controller.max_pitch", 1.5},
+                                   {"controller.max_descent_speed", 0.45},
+                                   {"controller.max_climb_speed", 0.1},
+                                   {"controller.touch_down_time", 0.5},
+                                   {"controller.touch_down_speed", 0.3},
+                                   {"controller.touch_down_lift", 1.0},
+                                   {"controller.rest_speed", 1.0},
+                                   {"controller.rest_time", 0.1},
+                                   {"controller.idle_output", 0.9},
+                                   {"trajectory_follower.down.ki", 50.0},
                                    {"trajectory_follower.mass", 0.39},
                                    {"trajectory_follower.gravity", 30.0},
                                    {"trajectory_follower.max_thrust", 20.0},
@@ -54,6 +69,28 @@ TEST_F(LiveChangesTest, MeasuresAChangeInFlightByWhatWasConfiguredNotByTheChange
   ask(SetParameter{"controller.mass", 3.3});
   EXPECT_FALSE(autopilot_.request(SetParameter{"controller.mass", 2.8}).accepted);
   ask(SetParameter{"controller.mass", 4.5});
+}
+
+TEST_F(LiveChangesTest, RefusesAnotherKindOfOutputInFlight) {
+  ask(SetParameter{"controller.take_off_pass_through", false});
+  ask(SetParameter{"controller.take_off_pass_through", true});
+  take_off();
+  EXPECT_FALSE(autopilot_.request(SetParameter{"controller.take_off_pass_through", false}).accepted);
+  EXPECT_FALSE(autopilot_.request(SetParameter{"controller.acceleration_output", 0}).accepted);
+}
+
+TEST_F(LiveChangesTest, MeasuresAChangeByWhatWasConfiguredHoweverOftenTheModuleIsSwapped) {
+  const SwapModule same{"controller", "cascaded_controller", {}};
+  take_off();
+  ask(SetParameter{"controller.mass", 3.2});
+  ask(same);
+  EXPECT_FALSE(autopilot_.request(SetParameter{"controller.mass", 2.6}).accepted);
+  ask(SetParameter{"controller.mass", 4.5});
+  // NOR does a swap bring what a setting may not
+  const RequestOutcome outcome = autopilot_.request(
+      SwapModule{"trajectory_follower", "flat_pid_follower", {{"trajectory_follower.mass", 2.0}}});
+  EXPECT_THAT(outcome.reason, HasSubstr("not in flight"));
+  EXPECT_EQ(autopilot_.parameters().get("trajectory_follower.mass"), ParameterValue(3.9));
 }
 
 /// What may be set in flight, as far as it may: upper and lower ends.

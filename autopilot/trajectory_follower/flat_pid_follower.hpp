@@ -68,7 +68,7 @@ struct FlatPidFollowerParams {
       return "min_thrust and min_lift must leave enough to sink";
     }
     const auto near = [](const PidGains& a, const PidGains& b) {
-      return stays(a.kp, b.kp, kMuch) && stays(a.kd, b.kd, kMuch);
+      return stays(a.kp, b.kp, kMuch) && stays(a.ki, b.ki, kMuch) && stays(a.kd, b.kd, kMuch);
     };
     return near(now.north, was.north) && near(now.east, was.east) && near(now.down, was.down)
                ? ""

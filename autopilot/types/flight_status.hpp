@@ -62,6 +62,11 @@ struct FlightMemory {
   Vector3 point_N = Vector3::Zero();
   double point_heading = 0.0;
   bool on_ground = false;
+  bool given_up = false;
+  bool blind = false;
+  bool may_lie = false;
+  Time last_sure{};
+  double lift = 1.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -73,6 +78,12 @@ struct FlightMemory {
     visit("point_N", self.point_N, "m", "that point, from the local origin");
     visit("point_heading", self.point_heading, "rad", "the heading to keep there");
     visit("on_ground", self.on_ground, "1", "touch-down was felt in this descent");
+    visit("given_up", self.given_up, "1", "it was out of control, and has been neither disarmed nor righted");
+    visit("blind", self.blind, "1", "the estimate was lost in the air, in this phase");
+    visit("may_lie", self.may_lie, "1",
+          "it was handed back with idling motors, and it is not known yet whether it flies");
+    visit("last_sure", self.last_sure, "ns", "stamp of the last estimate whose position was not in doubt");
+    visit("lift", self.lift, "1", "share of the weight, as it is configured, that has carried it lately");
   }
 };
 

@@ -137,10 +137,13 @@ struct FcuStatus {
   bool imu_calibrated = true;
   double battery_voltage = 0.0;
   std::optional<double> greatest_output = {};
+  Time output_stamp{};
 
   /// The pilot's switches or sticks hold an axis: bits 0 to 4 of the wire. The bits above say that the
   /// companion was not heard, or that the pilot's throttle is the lower one.
   bool pilot_holds() const { return (rc_override & 0x1F) != 0; }
+  /// The pilot's throttle is the lower one, and is flown.
+  bool throttle_limited() const { return (rc_override & 0x20) != 0; }
   /// The motors do not obey the companion, whatever the reason.
   bool overridden() const { return failsafe || rc_override != 0; }
 
@@ -159,6 +162,7 @@ struct FcuStatus {
           "low-passed battery voltage; 0 before the first reading");
     visit("greatest_output", self.greatest_output, "1",
           "of what the motors were driven with last, whoever drives them; none: the FCU has not said");
+    visit("output_stamp", self.output_stamp, "ns", "when that arrived");
   }
 };
 

@@ -41,7 +41,7 @@ const autopilot::SensorFrame* SensorFrameBuilder::push(const Arrival& arrival) {
   } else if (const auto* status = std::get_if<rosflight::RosflightStatus>(&arrival.message)) {
     take(*status, arrival.when);
   } else if (const auto* outputs = std::get_if<rosflight::RosflightOutputRaw>(&arrival.message)) {
-    take(*outputs);
+    take(*outputs, arrival.when);
   } else if (const auto* battery = std::get_if<rosflight::RosflightBatteryStatus>(&arrival.message)) {
     if (std::isfinite(battery->battery_voltage))
       battery_voltage_ = static_cast<double>(battery->battery_voltage);
@@ -101,15 +101,18 @@ void SensorFrameBuilder::take(const rosflight::RosflightStatus& message, Time wh
   status.imu_calibrated = (message.error_code & rosflight::RosflightStatus::kUncalibratedImu) == 0;
   status.battery_voltage = battery_voltage_;
   status.greatest_output = greatest_output_;
+  status.output_stamp = output_stamp_;
   status_ = gathering_.status = status;
 }
 
-void SensorFrameBuilder::take(const rosflight::RosflightOutputRaw& message) {
+void SensorFrameBuilder::take(const rosflight::RosflightOutputRaw& message, Time when) {
   const float greatest = *std::max_element(message.values.begin(), message.values.end());
   if (!std::isfinite(greatest)) return;
   greatest_output_ = static_cast<double>(greatest);
+  output_stamp_ = when;
   if (!status_) return;
   status_->greatest_output = greatest_output_;
+  status_->output_stamp = output_stamp_;
   gathering_.status = status_;
 }
 

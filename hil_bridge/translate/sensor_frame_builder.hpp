@@ -24,13 +24,14 @@ class SensorFrameBuilder {
   void take(const rosflight::SmallBaro& message);
   void take(const rosflight::RosflightGnss& message);
   void take(const rosflight::RosflightStatus& message, Time when);
-  void take(const rosflight::RosflightOutputRaw& message);
+  void take(const rosflight::RosflightOutputRaw& message, Time when);
 
   autopilot::SensorFrame gathering_;
   autopilot::SensorFrame complete_;
   Time imu_stamp_{0};
   std::optional<autopilot::FcuStatus> status_;
   std::optional<double> greatest_output_;
+  Time output_stamp_{0};
   double battery_voltage_ = 0.0;
 };
 

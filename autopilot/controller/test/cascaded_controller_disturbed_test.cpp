@@ -92,6 +92,18 @@ TEST_F(CascadedControllerTest, StaysLevelInTheAirForAWhileWithoutAnEstimate) {
   EXPECT_TRUE(is_silent());
 }
 
+TEST_F(CascadedControllerTest, HoldsABlindVehicleUpWithWhatHasCarriedItNotWithWhatItIsSaidToWeigh) {
+  for (const double weight : {30.0, 46.0}) {
+    controller_.reset();
+    estimate_.health = Health::kGood;
+    estimate_.p_NB_N.z() = 0.0;
+    fly_offboard();
+    run_for(20.0, AngleHeadingRateThrust{0.0, 0.0, 0.0, weight});
+    estimate_.health = Health::kLost;
+    EXPECT_NEAR(std::get<PassThroughCommand>(run()).thrust, 0.97 * weight, 0.1);
+  }
+}
+
 TEST_F(CascadedControllerTest, HoldsAPositionInDoubtThenLandsThere) {
   fly_offboard();
   estimate_.position_doubtful = true;
@@ -110,6 +122,17 @@ TEST_F(CascadedControllerTest, HoldsAPositionInDoubtThenLandsThere) {
   estimate_.position_doubtful = false;
   run();
   EXPECT_EQ(controller_.phase(), kOffboard);
+}
+
+TEST_F(CascadedControllerTest, CountsADoubtFromItsBeginningHoweverLongItHasHeld) {
+  fly_offboard();
+  run_for(60.0, NoSetpoint{});
+  ASSERT_EQ(controller_.phase(), kHold);
+  estimate_.position_doubtful = true;
+  run_for(controller_.params().doubt_patience - 0.1, NoSetpoint{});
+  EXPECT_EQ(controller_.phase(), kHold);
+  run_for(0.2, NoSetpoint{});
+  EXPECT_EQ(controller_.phase(), kLanding);
 }
 
 TEST_F(CascadedControllerTest, ComesToRestWithoutALurchWhenItsPositionIsInDoubt) {
@@ -143,6 +166,24 @@ TEST_F(CascadedControllerTest, SaysNothingNearTheGroundOnALostEstimateAndLandsWh
   estimate_.health = Health::kGood;
   EXPECT_FALSE(is_silent());
   EXPECT_EQ(controller_.phase(), kLanding) << "not back to the mission by itself";
+}
+
+TEST_F(CascadedControllerTest, FallsSilentThoughTheStampOfALostEstimateStandsStill) {
+  for (const Time period : {Time{0}, Time{std::chrono::milliseconds(10)}}) {
+    controller_.set_period(period);
+    controller_.reset();
+    estimate_.health = Health::kGood;
+    estimate_.p_NB_N.z() = 0.0;
+    ask(FlightWish::kTakeOff);
+    run_for(0.1);
+    estimate_.p_NB_N.z() = -2.0;
+    run_for(0.1);
+    estimate_.health = Health::kLost;
+    const auto again = [&] { return controller_.run(kSomething, false, estimate_, status_); };
+    for (int i = 0; i < 50; ++i) ASSERT_NEAR(std::get<PassThroughCommand>(again()).thrust, 37.1, 0.1);
+    for (int i = 0; i < 100; ++i) again();
+    EXPECT_TRUE(std::holds_alternative<SilenceCommand>(again())) << seconds(period) << " s";
+  }
 }
 
 TEST_F(CascadedControllerTest, StaysSilentAfterALongLossUntilAskedToFlyOn) {
@@ -197,58 +238,6 @@ TEST_F(CascadedControllerTest, TakesOffAgainAfterALandingByRequest) {
 }
 
 /// What the autopilot would hand to a successor.
-Signals left_by(const Controller& controller, const StateEstimate& estimate) {
-  Signals signals;
-  signals.estimate = estimate;
-  signals.flight.phase = controller.phase();
-  signals.flight.cause = controller.cause();
-  signals.flight.memory = controller.memory();
-  return signals;
-}
-
-TEST_F(CascadedControllerTest, TakesOverThePhaseOfItsPredecessor) {
-  Signals signals;
-  signals.flight.phase = kOffboard;
-  controller_.take_over(signals);
-  EXPECT_NEAR(std::get<PassThroughCommand>(run()).thrust, 38.0, 1e-9);
-  EXPECT_EQ(controller_.phase(), kOffboard);
-}
-
-TEST_F(CascadedControllerTest, GoesOnWithTheClimbOfItsPredecessor) {
-  // GIVEN a climb that began at 10 m and has come to 11.4 m
-  estimate_.p_NB_N << 3.0, 4.0, -10.0;
-  ask(FlightWish::kTakeOff);
-  run();
-  estimate_.p_NB_N << 3.2, 4.0, -11.4;
-  run();
-  CascadedController successor;
-  successor.take_over(left_by(controller_, estimate_));
-  const auto step = [&] {
-    estimate_.stamp += std::chrono::microseconds(2500);
-    return successor.run(kSomething, false, estimate_, status_);
-  };
-  step();
-  EXPECT_EQ(successor.phase(), kTakeOff);
-  EXPECT_EQ(successor.memory().point_N.x(), 3.0) << "over the place where it began";
-  // WHEN it has come within half a metre of 2 m above the beginning THEN it holds, not 2 m further up
-  estimate_.p_NB_N.z() = -11.6;
-  step();
-  EXPECT_EQ(successor.phase(), kHold);
-  EXPECT_EQ(successor.memory().point_N.z(), -12.0);
-}
-
-TEST_F(CascadedControllerTest, KeepsTheMotorsStillOnTheGroundAfterItsPredecessorsLanding) {
-  fly_offboard();
-  ask(FlightWish::kLand);
-  run_for(2.0);
-  ASSERT_EQ(std::get<PassThroughCommand>(run()).thrust, 0.0);
-  CascadedController successor;
-  successor.take_over(left_by(controller_, estimate_));
-  estimate_.stamp += std::chrono::microseconds(2500);
-  EXPECT_EQ(std::get<PassThroughCommand>(successor.run(kSomething, false, estimate_, status_)).thrust, 0.0);
-  EXPECT_EQ(successor.memory().launch_N, Vector3(3.0, 4.0, 0.0));
-}
-
 TEST_F(CascadedControllerTest, GivesAVehicleThatLiesOnItsBackNoThrust) {
   fly_offboard();
   estimate_.q_NB = Quaternion(0.0, 1.0, 0.0, 0.0);

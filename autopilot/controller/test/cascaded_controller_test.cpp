@@ -108,6 +108,23 @@ TEST_F(CascadedControllerTest, NeedsANewRequestAfterItWasSetDownByThePilot) {
   EXPECT_FALSE(is_silent());
 }
 
+TEST_F(CascadedControllerTest, IsInNoHurryToBelieveItLiesFarBelowItsLaunch) {
+  // GIVEN a launch from a roof, a flight twelve metres below it, and a pilot who hovers very still
+  estimate_.p_NB_N.z() = -24.0;
+  ask(FlightWish::kTakeOff);
+  run();
+  estimate_.p_NB_N.z() = -26.0;
+  run_for(1.1);
+  estimate_.p_NB_N.z() = -12.0;
+  status_.rc_override = 0x003;
+  run_for(controller_.params().rest_time - 0.1);
+  EXPECT_EQ(controller_.phase(), kOffboard);
+  // WHEN the estimate is lost there THEN it is kept up
+  status_.rc_override = 0;
+  estimate_.health = Health::kLost;
+  EXPECT_FALSE(is_silent());
+}
+
 TEST_F(CascadedControllerTest, NeedsANewRequestAfterAFailsafeTookItDownOnAHill) {
   fly_offboard();
   status_.failsafe = true;

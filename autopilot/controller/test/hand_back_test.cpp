@@ -46,6 +46,39 @@ TEST_P(HandBackTest, LeavesAVehicleThatThePilotDroppedWhereItLiesWheneverHeHands
   EXPECT_GT(drops, 30);
 }
 
+TEST_P(HandBackTest, LeavesAVehicleWhereItLiesThatAThrottleStickDroppedAndGoesUpAgain) {
+  for (double held = 0.05; held < 3.0; held += 0.05) {
+    VerticalFlight flight;
+    bring(flight, GetParam());
+    flight.live(held, 0.0, 0x020);
+    if (!flight.on_ground()) continue;
+    for (int i = 0; i < 2000; ++i) {
+      flight.live(VerticalFlight::kStep);
+      ASSERT_LT(flight.lift, 0.1) << "stick up after " << held << " s";
+    }
+    EXPECT_EQ(flight.controller.phase(), kDisarmed) << held;
+  }
+}
+
+TEST(RestWatchTest, BelievesNoOutputsThatTheFcuSaidLongAgo) {
+  RestWatch watch;
+  StateEstimate estimate;
+  estimate.v_NB_B.z() = 0.5;  // not still
+  FcuStatus status;
+  status.greatest_output = 0.05;
+  const auto rests_after_a_while = [&] {
+    for (int i = 0; i < 100; ++i) {
+      estimate.stamp += std::chrono::milliseconds(10);
+      watch.look(estimate, true, status, true, {});
+    }
+    return watch.rests(estimate.stamp, true, {});
+  };
+  status.stamp = std::chrono::milliseconds(600);
+  EXPECT_FALSE(rests_after_a_while());
+  status.output_stamp = std::chrono::milliseconds(590);
+  EXPECT_TRUE(rests_after_a_while());
+}
+
 TEST_P(HandBackTest, FliesAtOnceWhenHandedBackInTheAir) {
   VerticalFlight flight;
   bring(flight, GetParam());
@@ -63,6 +96,31 @@ TEST_P(HandBackTest, CatchesAVehicleThatFallsWhenItIsHandedBack) {
   bring(flight, GetParam());
   flight.live(4.0, 1.3);
   flight.live(3.0, 0.0);
+  ASSERT_GT(flight.height, 10.0);
+  flight.live(0.01);
+  EXPECT_GT(flight.lift, 1.0);
+}
+
+TEST_P(HandBackTest, CatchesAVehicleThatTheAirCarriesWheneverItIsHandedBack) {
+  for (double held = 1.5; held < 8.0; held += 0.25) {
+    VerticalFlight flight;
+    flight.terminal_speed = 12.0;
+    bring(flight, GetParam());
+    flight.live(12.0, 1.5);
+    flight.live(held, 0.0);
+    ASSERT_GT(flight.height, 10.0);
+    flight.live(0.01);
+    ASSERT_GT(flight.lift, 1.0) << "after " << held << " s, at " << flight.v_down << " m/s";
+  }
+}
+
+TEST_P(HandBackTest, CatchesAVehicleThatSinksFastWithMotorsThatHaveOnlyJustBegunToIdle) {
+  VerticalFlight flight;
+  flight.terminal_speed = 12.0;
+  bring(flight, GetParam());
+  flight.live(8.0, 1.5);
+  flight.live(4.0, 0.15);  // a fall, and yet not idle
+  flight.live(0.3, 0.05);
   ASSERT_GT(flight.height, 10.0);
   flight.live(0.01);
   EXPECT_GT(flight.lift, 1.0);

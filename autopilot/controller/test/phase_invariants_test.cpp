@@ -153,7 +153,7 @@ TEST(WishWalkTest, GrantsATakeOffOnlyStandingArmedInNobodyElsesHandsWithEstimate
       set_bits(now, number);
       const bool ready = now.armed && !now.failsafe && !now.pilot_holds && now.estimate_usable &&
                          now.position_known && !now.position_doubtful &&
-                         (phase == kDisarmed || now.on_ground);
+                         (phase == kDisarmed || now.on_ground) && !now.overturned;
       EXPECT_EQ(why_not(FlightWish::kTakeOff, now).empty(), ready) << name << " 0x" << std::hex << number;
     }
   }

@@ -19,16 +19,19 @@ class VerticalFlight {
     status.armed = true;
   }
 
-  /// @param pilot  lift of the pilot's throttle, share of the weight; none: the controller flies
-  void live(double seconds, std::optional<double> pilot = {}) {
+  /// @param pilot    lift of the pilot's throttle, share of the weight; none: the controller flies
+  /// @param holding  what he holds it with, bits of `rc_override`
+  void live(double seconds, std::optional<double> pilot = {}, int holding = 0x003) {
     for (int i = 0; i < std::lround(seconds / kStep); ++i) {
-      status.rc_override = pilot ? 0x003 : 0;
+      status.rc_override = pilot ? holding : 0;
       estimate.stamp += std::chrono::microseconds(2500);
       const FcuCommand& command = controller.run(NoSetpoint{}, false, estimate, status);
       const auto* direct = std::get_if<PassThroughCommand>(&command);
       lift = pilot.value_or(direct == nullptr ? 0.0 : direct->thrust / weight());
       status.greatest_output = lift < 0.1 ? 0.1 : 0.6;
-      move(controller.params().gravity * (1.0 - lift));
+      const double drag =
+          terminal_speed ? v_down * std::abs(v_down) / (*terminal_speed * *terminal_speed) : 0.0;
+      move(controller.params().gravity * (1.0 - lift - drag));
     }
   }
 
@@ -41,6 +44,7 @@ class VerticalFlight {
   double height = 0.0;  // m
   double v_down = 0.0;  // m/s
   double lift = 0.0;
+  std::optional<double> terminal_speed;  // m/s, of a fall without thrust; none: no drag
 
  private:
   static constexpr double kMissed = 0.3;  // of the speed of an impact

@@ -19,13 +19,14 @@ class UprightWatchTest : public ::testing::Test {
     estimate_.q_NB = leaning(lean_degrees);
     for (int i = 0; i < seconds / 0.01; ++i) {
       estimate_.stamp += std::chrono::milliseconds(10);
-      watch_.look(estimate_, true, false, asked, taken);
+      watch_.look(estimate_, usable_, false, asked, taken);
     }
   }
   bool stops() const { return watch_.stops(estimate_.stamp); }
 
   UprightWatch watch_;
   StateEstimate estimate_;
+  bool usable_ = true;
 };
 
 TEST_F(UprightWatchTest, StopsAVehicleThatTumblesThoughItIsAskedToBeUpright) {
@@ -46,6 +47,24 @@ TEST_F(UprightWatchTest, LetsAVehicleThatWasUpsetRightItself) {
     look(0.6, 20.0, 1.0);
   }
   EXPECT_FALSE(stops());
+}
+
+TEST_F(UprightWatchTest, CountsNoTimeInWhichItSawNothing) {
+  look(2.0, 120.0, 1.0);
+  usable_ = false;
+  look(2.0, 120.0, 1.0);
+  usable_ = true;
+  look(0.9, 120.0, 1.0);
+  EXPECT_FALSE(stops());
+  look(0.2, 120.0, 1.0);
+  ASSERT_TRUE(stops()) << "a crash may take the estimate for a moment: it goes on counting";
+  // NOR is it upright in the pilot's hands because it was before and after
+  look(0.2, 10.0, 1.0, true);
+  usable_ = false;
+  look(2.0, 10.0, 1.0, true);
+  usable_ = true;
+  look(0.2, 10.0, 1.0, true);
+  EXPECT_TRUE(stops());
 }
 
 TEST_F(UprightWatchTest, LetsWhoAsksForItFlyOnItsSideOrTurnOver) {
@@ -86,6 +105,44 @@ TEST_F(CascadedControllerTest, StopsTheMotorsOfAVehicleThatTumblesAndStaysSoUnti
   run();
   ask(FlightWish::kTakeOff);
   EXPECT_GT(std::get<PassThroughCommand>(run()).thrust, 0.0);
+}
+
+TEST_F(CascadedControllerTest, TakesNoOverturnedVehicleOffHoweverItIsAsked) {
+  // GIVEN a vehicle that is armed on its back
+  arm_with_take_off();
+  estimate_.q_NB = leaning(180.0);
+  run_for(1.1);
+  // THEN it is told to stop its motors: in silence the FCU would try to right it
+  for (int i = 0; i < 400; ++i) ASSERT_EQ(std::get<PassThroughCommand>(run()).thrust, 0.0);
+  EXPECT_NE(refusal(FlightWish::kTakeOff).find("overturned"), std::string::npos);
+  // WHEN it turns over between the grant and the step THEN it stays down
+  estimate_.q_NB = leaning(10.0);
+  run(NoSetpoint{});
+  ask(FlightWish::kTakeOff);
+  estimate_.q_NB = leaning(70.0);
+  EXPECT_TRUE(is_silent());
+  // WHEN it stands THEN it may fly
+  estimate_.q_NB = leaning(10.0);
+  run(NoSetpoint{});
+  ask(FlightWish::kTakeOff);
+  EXPECT_FALSE(is_silent());
+}
+
+TEST_F(CascadedControllerTest, DoesNotFlyAgainWithoutDisarmingAfterItTumbledToTheGround) {
+  fly_offboard();
+  estimate_.q_NB = leaning(110.0);
+  estimate_.v_NB_B.x() = 2.0;
+  run_for(3.1);
+  // WHEN it has come to rest on its feet with the pilot's sticks elsewhere, still armed
+  estimate_.q_NB = leaning(0.0);
+  estimate_.v_NB_B.setZero();
+  estimate_.p_NB_N.z() = 0.0;
+  status_.rc_override = 0x001;
+  run_for(0.4);
+  status_.rc_override = 0;
+  run();
+  ASSERT_EQ(controller_.phase(), FlightPhase::kDisarmed);
+  EXPECT_NE(refusal(FlightWish::kTakeOff).find("disarm"), std::string::npos);
 }
 
 TEST_F(CascadedControllerTest, LetsAcrobaticsByRatesAndTorquesBe) {

@@ -181,6 +181,7 @@ TEST(SensorFrameBuilderTest, TellsHowTheMotorsAreDrivenAsSoonAsTheFcuSaysSo) {
   EXPECT_FLOAT_EQ(static_cast<float>(frame->status->greatest_output.value()), 0.1f);
   EXPECT_TRUE(frame->status->armed);
   EXPECT_EQ(frame->status->stamp, now);
+  EXPECT_EQ(frame->status->output_stamp, now + now);
 }
 
 TEST(TelemetryTest, KeepsTheLatestOfEachKind) {
