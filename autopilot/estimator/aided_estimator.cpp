@@ -76,7 +76,9 @@ void AidedEstimator::reset() {
   last_fix_.reset();
   trust_ = FixTrust{};
   offset_N_.setZero();
-  armed_ = false;
+  back_since_.reset();
+  doubts_ = 0;
+  was_armed_ = false;
   last_good_ = StateEstimate{};
   late_fixes_ = 0;
   recoveries_ = 0;
@@ -119,7 +121,8 @@ void AidedEstimator::take_over(const Signals& signals) {
   heard_.gnss = last.stamp - Time{std::llround(last.position_age * 1e9)};
   trust_.begin(heard_.gnss);
   offset_N_ = last.position_offset_N;
-  armed_ = signals.flight.fcu.armed;
+  doubts_ = last.position_doubtful ? 1 : 0;
+  was_armed_ = was_armed_ || signals.flight.fcu.armed || last.position_doubtful;
   previous_ = last.stamp;
   last_good_ = last;
 }
@@ -130,7 +133,7 @@ StateEstimate AidedEstimator::estimate(const SensorFrame& frame, double dt) {
   const double step = running_ && previous_.count() > 0 ? seconds(now - previous_) : dt;
   previous_ = now;
   filter_rates(frame.imu.w_NB_B, step);
-  if (frame.status) armed_ = frame.status->armed;
+  if (frame.status) was_armed_ = was_armed_ || frame.status->armed;
   if (!running_) {
     if (alignment_.add(frame, dt, aiding())) {
       origin_pressure_ = alignment_.start().origin_pressure;
@@ -225,20 +228,36 @@ void AidedEstimator::fuse_gnss(const GnssSample& gnss, Time now) {
   heard_.gnss = now;
   GnssObservation fix;
   fix.p_N = local_from_geodetic({gnss.latitude, gnss.longitude, gnss.altitude}, origin_);
+  weigh(fix, gnss, wanted);
   const Vector3 as_told_N = fix.p_N - compared.p_N - slow_fix_error_N();
-  // A receiver that has stepped back is believed as before.
-  if (as_told_N.head<2>().squaredNorm() < (as_told_N - offset_N_).head<2>().squaredNorm())
-    offset_N_.setZero();
-  fix.p_N -= offset_N_;
+  if (!has_stepped_back(as_told_N, fix.gate_variance_p, now)) fix.p_N -= offset_N_;
   fix.dp_N = fix.p_N - compared.p_N;
   fix.dv_N = gnss.v_NB_N - compared.v_N;
   fix.p_N += present.p_N - compared.p_N;
   fix.v_N = gnss.v_NB_N + present.v_N - compared.v_N;
-  weigh(fix, gnss, wanted);
   innovations_.p_N = fix.dp_N;
   innovations_.v_N = fix.dv_N;
   last_fix_ = fix;
   tell_delay_line([&] { correct_gnss(fix, now); });
+}
+
+bool AidedEstimator::has_stepped_back(const Vector3& as_told_N, const Vector3& variance, Time now) {
+  if (offset_N_.isZero(0.0)) return false;
+  const GnssParams& wanted = aiding().gnss;
+  const Vector2 step = as_told_N.head<2>();
+  const Vector2 S = variance.head<2>() + last_good_.sigma_p_N.head<2>().cwiseAbs2();
+  const double nis = step.cwiseAbs2().cwiseQuotient(S).sum();
+  const bool nearer = step.squaredNorm() < (step - offset_N_.head<2>()).squaredNorm();
+  if (!nearer || (wanted.position_gate > 0.0 && nis > wanted.position_gate)) {
+    back_since_.reset();
+    return false;
+  }
+  if (!back_since_) back_since_ = now;
+  if (seconds(now - *back_since_) >= wanted.persistence * doubts_) {
+    offset_N_.setZero();
+    back_since_.reset();
+  }
+  return true;
 }
 
 void AidedEstimator::velocity_believed(Time now, double was_off) {
@@ -251,6 +270,7 @@ bool AidedEstimator::blame_receiver(const Vector3& by_N, Time now) {
   const bool far = distance > PositionWatch::kLeastJump;
   if (!far || !trust_.blames_receiver(distance, aiding().lost_speed, now, aiding().gnss.silence))
     return false;
+  if (offset_N_.isZero(0.0)) ++doubts_;
   offset_N_.head<2>() += by_N.head<2>();
   if (last_fix_) last_fix_->p_N.head<2>() -= by_N.head<2>();
   settle_on_ground();
@@ -258,13 +278,13 @@ bool AidedEstimator::blame_receiver(const Vector3& by_N, Time now) {
 }
 
 void AidedEstimator::settle_on_ground() {
-  // Nothing hangs on the old place there: N stays with the vehicle, and its place on the earth is the new
-  // one.
-  if (armed_ || offset_N_.isZero(0.0)) return;
+  // Before a flight nothing hangs on the old place: N stays with the vehicle and lies where the fixes say.
+  if (was_armed_ || offset_N_.isZero(0.0)) return;
   const GeodeticPosition place = geodetic_from_local(offset_N_, origin_);
   origin_.latitude = place.latitude;
   origin_.longitude = place.longitude;
   offset_N_.setZero();
+  doubts_ = 0;
 }
 
 void AidedEstimator::recover(Time now) {

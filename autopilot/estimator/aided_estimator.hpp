@@ -107,7 +107,7 @@ class AidedEstimator : public Estimator {
   void position_believed(Time now) { trust_.position_believed(now); }
 
   /// The fixes have disagreed for good. When Doppler says that it is not the filter that has moved, they are
-  /// taken back by this much from now on, in flight with doubt, on the ground with the origin.
+  /// taken back by this much from now on, with doubt; before the first flight with the origin.
   /// @return false: the filter is to believe them
   bool blame_receiver(const Vector3& by_N, Time now);
 
@@ -150,6 +150,9 @@ class AidedEstimator : public Estimator {
   void restart(const StartState& again);
   void realign_if_hopeless(const SensorFrame& frame, double dt);
   void filter_rates(const Vector3& w_B, double dt);
+  /// While the fixes are in doubt: this one agrees without the offset. When those of `gnss.persistence` have,
+  /// times the number of doubts so far, the offset is dropped.
+  bool has_stepped_back(const Vector3& as_told_N, const Vector3& variance, Time now);
   void settle_on_ground();
   void look_after(StateEstimate& estimate, Time now, double dt);
   bool is_lost(const StateEstimate& estimate, Time now) const;
@@ -174,7 +177,9 @@ class AidedEstimator : public Estimator {
   std::optional<GnssObservation> last_fix_;
   FixTrust trust_;
   Vector3 offset_N_ = Vector3::Zero();  // of the fixes, horizontal
-  bool armed_ = false;
+  std::optional<Time> back_since_;      // the fixes agree without the offset
+  int doubts_ = 0;
+  bool was_armed_ = false;
   StateEstimate last_good_;
   int late_fixes_ = 0;
   int recoveries_ = 0;

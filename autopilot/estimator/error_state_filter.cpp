@@ -225,7 +225,7 @@ void ErrorStateFilter::fuse_position(const GnssObservation& fix, Time now, Updat
     }
   } else if (verdict == Verdict::kReset) {
     if (!blame_receiver(innovation, now)) {
-      decorrelate(P_, kP, 2, fix.variance_p.x());
+      decorrelate(P_, kP, 2, fix.gate_variance_p.x());
       update.correction.segment<2>(kP) = innovation.head<2>() - update.correction.segment<2>(kW);
     }
     // Height has the barometer as well: there it is the receiver that has stepped.

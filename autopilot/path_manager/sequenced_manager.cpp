@@ -47,7 +47,7 @@ void SequencedManager::reset() {
 void SequencedManager::wait_on_ground() {
   mode_ = Mode::kAway;
   index_ = reached_ = 0;
-  counted_ = departed_ = on_motion_ = replan_ = false;
+  counted_ = departed_ = on_motion_ = replan_ = was_done_ = false;
   if (flown_) pause_ = false;  // a hold of the flight before; one asked for on the ground is kept
   flown_ = false;
 }
@@ -88,15 +88,11 @@ TrajectoryPoint SequencedManager::follow(const Route& route, const StateEstimate
                                          const FlightStatus& flight, double dt) {
   const Time since_last = dt > 0.0 ? estimate.stamp - now_ : Time{0};
   now_ = estimate.stamp;
-  if (!is_usable(estimate.health)) {
-    mode_ = Mode::kAway;
-    TrajectoryPoint nothing;
-    nothing.stamp = now_;
-    return nothing;
-  }
+  if (!is_usable(estimate.health)) return nothing_to_fly();
   const bool waits = !rules_.never_waits && !flight.companion_flies();
   const bool on_ground = flight.phase == FlightPhase::kDisarmed || flight.phase == FlightPhase::kTakeOff;
   if (waits && on_ground) wait_on_ground();
+  was_done_ = false;
   flown_ = flown_ || !waits;
   notice(route);
   if (waits || (mode_ == Mode::kAway && size_ == 0)) {
@@ -110,6 +106,15 @@ TrajectoryPoint SequencedManager::follow(const Route& route, const StateEstimate
   if (mode_ == Mode::kAway) begin(route, estimate);
   step(route, estimate);
   return point_of(reference());
+}
+
+TrajectoryPoint SequencedManager::nothing_to_fly() {
+  if (mode_ != Mode::kAway) was_done_ = mode_ == Mode::kDone;
+  mode_ = Mode::kAway;
+  TrajectoryPoint nothing = point_of(MotionPoint{});
+  nothing.valid = false;
+  nothing.finished = was_done_;
+  return nothing;
 }
 
 void SequencedManager::pass_time(Time since_last) {

@@ -22,6 +22,7 @@ namespace ironbird::autopilot {
 /// begins anew.
 /// * When the estimated position jumps, the reference jumps along, is brought to rest and makes its way from
 /// there.
+/// * Without a usable estimate there is nothing to fly, but what has been flown stays told.
 /// * When the estimates stop coming for longer than kLongestStep, the motion waits with them.
 /// ROScopter paper, path manager; holds, landing, editing under way and overrides are ours.
 class SequencedManager : public PathManager {
@@ -71,6 +72,7 @@ class SequencedManager : public PathManager {
   enum class Mode : std::uint8_t { kAway, kMotion, kHold, kBrake, kPause, kDone, kLand };
 
   void wait_on_ground();
+  TrajectoryPoint nothing_to_fly();
   void pass_time(Time since_last);
   void notice(const Route& route);
   void move_with(const StateEstimate& estimate);
@@ -105,7 +107,8 @@ class SequencedManager : public PathManager {
   std::uint32_t reached_ = 0;
   bool counted_ = false;  // the waypoint `index_` is among `reached_`
   bool departed_ = false;
-  bool pause_ = false;  // a hold on the spot was asked for and is not over
+  bool was_done_ = false;  // when the estimate was lost
+  bool pause_ = false;     // a hold on the spot was asked for and is not over
   bool released_now_ = false;
   bool replan_ = false;
   std::uint32_t revision_ = 0;

@@ -12,6 +12,8 @@ constexpr simulator::Time kRest{500'000'000};
 constexpr simulator::Time kFlight{300'000'000};
 // A landing gear that chatters on the ground has not left it.
 constexpr simulator::Time kChatter{50'000'000};
+// A vehicle that lies for so long has not only rocked.
+constexpr simulator::Time kLies{1'000'000'000};
 constexpr simulator::Time kNever{-1};
 // What a landing gear has to take without damage: certification drops that of a small rotorcraft from 13
 // inches (14 CFR 27.725), with which it comes down at 2.55 m/s. It is six times the speed that the controller
@@ -36,9 +38,8 @@ std::optional<std::string_view> GroundWatch::observe(const simulator::Truth& tru
     hardest_ = std::max(hardest_, std::exchange(sink_, 0.0));
     if (airborne_ && truth.stamp - contact_since_ >= kRest) {
       airborne_ = false;
-      const bool safe =
-          std::exchange(hardest_, 0.0) <= kHardestLanding && uprightness(truth) >= kLeastUpright;
-      return safe ? "landed" : "crashed";
+      crashed_ = std::exchange(hardest_, 0.0) > kHardestLanding || uprightness(truth) < kLeastUpright;
+      return crashed_ ? "crashed" : "landed";
     }
   } else {
     sink_ = truth.v_NB_N.z();
@@ -46,11 +47,23 @@ std::optional<std::string_view> GroundWatch::observe(const simulator::Truth& tru
     if (truth.stamp - free_since_ >= kChatter) contact_since_ = kNever;
     if (!airborne_ && truth.stamp - free_since_ >= kFlight) {
       airborne_ = true;
+      crashed_ = false;
       hardest_ = 0.0;
       return "lifted_off";
     }
   }
-  return std::nullopt;
+  return fallen_over(truth) ? std::optional<std::string_view>("crashed") : std::nullopt;
+}
+
+bool GroundWatch::fallen_over(const simulator::Truth& truth) {
+  if (airborne_ || uprightness(truth) >= kLeastUpright) {
+    leaning_since_ = kNever;
+    return false;
+  }
+  if (leaning_since_ == kNever) leaning_since_ = truth.stamp;
+  if (crashed_ || truth.stamp - leaning_since_ < kLies) return false;
+  crashed_ = true;
+  return true;
 }
 
 }  // namespace ironbird::scenarios

@@ -148,7 +148,8 @@ std::unique_ptr<Assertion> make_targeted(const std::string& kind, const Reader& 
     const double band = read.positive(read.config.settles->band, "settles.band", unit);
     const double time = read.positive(read.config.settles->time, "settles.time", "s");
     const std::string words = "within " + read.in_words(band) + " after " + with_unit(time, "s");
-    return std::make_unique<Settles>(read.subject, read.wording(words), band, time, read.target());
+    return std::make_unique<Settles>(read.subject, read.wording(words), band, time, read.target(),
+                                     !read.config.after.empty());
   }
   if (kind == "overshoot_below") {
     if (read.subject.size() != 1)
@@ -197,10 +198,12 @@ std::unique_ptr<Assertion> make_without_subject(const std::string& kind, const C
     throw std::invalid_argument(kind + " takes neither signal nor error");
   }
   if (kind == "happens") {
-    return std::make_unique<ConditionAssertion>(condition(table, *config.happens, kind), true);
+    return std::make_unique<ConditionAssertion>(condition(table, *config.happens, kind), true,
+                                                !config.after.empty());
   }
   if (kind == "never_happens") {
-    return std::make_unique<ConditionAssertion>(condition(table, *config.never_happens, kind), false);
+    return std::make_unique<ConditionAssertion>(condition(table, *config.never_happens, kind), false,
+                                                !config.after.empty());
   }
   if (kind == "order_of_events") {
     if (config.order_of_events->empty()) throw std::invalid_argument("order_of_events names no event");

@@ -23,6 +23,7 @@ void ConditionAssertion::sample(double time) {
     return;
   }
   eventually_.sample(time, margin);
+  was_not_so_ = was_not_so_ || margin <= 0.0;
   if (margin > 0.0 && !first_) first_ = time;
 }
 
@@ -41,6 +42,8 @@ void ConditionAssertion::judge(const RunFacts&, CheckResult& result) const {
        condition_.unit(), condition_.angles());
   result.explanation =
       condition_.text() + (first_ ? " at " + with_unit(*first_, "s") : std::string(" at no time"));
+  if (must_happen_ && !was_not_so_ && !may_be_so_)
+    object(result, "it was so from the start; `after` says from when it counts");
 }
 
 void OrderOfEvents::judge(const RunFacts& facts, CheckResult& result) const {

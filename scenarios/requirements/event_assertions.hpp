@@ -13,17 +13,20 @@ namespace ironbird::scenarios {
 
 // The assertions about conditions, events and metrics.
 
-/// happens and never_happens.
+/// happens and never_happens. From the start of the run on, what happens must not have been so before.
 class ConditionAssertion final : public Assertion {
  public:
-  ConditionAssertion(Condition condition, bool must_happen)
-      : condition_(std::move(condition)), must_happen_(must_happen) {}
+  /// @param may_be_so  when the window opens
+  ConditionAssertion(Condition condition, bool must_happen, bool may_be_so)
+      : condition_(std::move(condition)), must_happen_(must_happen), may_be_so_(may_be_so) {}
   void sample(double time) override;
   void judge(const RunFacts& facts, CheckResult& result) const override;
 
  private:
   Condition condition_;
   bool must_happen_;
+  bool may_be_so_;
+  bool was_not_so_ = false;
   stl::Eventually eventually_;
   std::optional<double> first_;
   std::optional<double> broken_at_;

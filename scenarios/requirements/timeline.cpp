@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "autopilot/math/local_map.hpp"
 #include "scenarios/requirements/number_text.hpp"
@@ -84,13 +85,22 @@ void EventDetector::report(const Seen& fresh, double time, Timeline& timeline) {
   if (fresh.position_resets > seen_.position_resets) {
     timeline.add(time, "position_reset", with_unit(signals_.estimate.position_reset_N.norm(), "m"));
   }
-  const bool another_route = fresh.reached < seen_.reached;
-  if (another_route) of_routes_before_ += seen_.reached;
-  for (std::uint32_t i = another_route ? 1 : seen_.reached + 1; i <= fresh.reached; ++i) {
-    timeline.add(time, "waypoint", "waypoint_" + std::to_string(of_routes_before_ + i));
-  }
-  if (fresh.finished && !seen_.finished) timeline.add(time, "waypoint", "route_finished");
   seen_ = fresh;
+}
+
+void EventDetector::look_at_route(double time, Timeline& timeline) {
+  const autopilot::TrajectoryPoint& point = signals_.trajectory;
+  if (!point.valid) return;
+  const bool begins_anew = point.reached < reached_;
+  if (begins_anew) of_routes_before_ += std::exchange(reached_, 0);
+  while (reached_ < point.reached) {
+    ++reached_;
+    timeline.add(time, "waypoint", "waypoint_" + std::to_string(of_routes_before_ + reached_));
+  }
+  if (!point.finished) return;
+  const Finish finish{of_routes_before_ + reached_, signals_.route.revision};
+  if (finish != finish_) timeline.add(time, "waypoint", "route_finished");
+  finish_ = finish;
 }
 
 void EventDetector::look_at_places(double time, Timeline& timeline) {

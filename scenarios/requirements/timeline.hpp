@@ -63,10 +63,13 @@ class Timeline {
 
 /// Turns changes of the autopilot's signals into events: phases of flight (`offboard`), arming (`armed`,
 /// `unarmed`), waypoints (`waypoint_1` for the first one reached, and on from there through every route and
-/// flight of the run, `route_finished`), health of the estimate (`degraded`), doubt about the position
+/// flight of the run, `route_finished`, once for each route as it stands), health of the estimate
+/// (`degraded`), doubt about the position
 /// (`doubtful`, `sure`; by how much the fixes have stepped is `gnss_step`), a position that jumps
 /// (`position_reset`), an origin that moves (`origin_moved`), and why the phase changed when nobody asked for
 /// it (`cause:position_unknown`).
+///
+/// A trajectory point that is not valid tells nothing of the route.
 ///
 /// A health that worsens is an event at once; one that betters, when it has lasted half a second: a sensor
 /// that fails now and then makes one event, not hundreds.
@@ -80,6 +83,7 @@ class EventDetector {
     Seen fresh = now();
     if (fresh.health != seen_.health || betters_) fresh.health = settled(fresh.health, time);
     if (!(fresh == seen_)) report(fresh, time, timeline);
+    look_at_route(time, timeline);
     look_at_places(time, timeline);
   }
 
@@ -91,9 +95,14 @@ class EventDetector {
     autopilot::Health health = autopilot::Health::kUninitialised;
     bool doubtful = false;
     std::uint32_t position_resets = 0;
-    std::uint32_t reached = 0;
-    bool finished = false;
     bool operator==(const Seen&) const = default;
+  };
+
+  /// The end of a route, which may be come to again after an override.
+  struct Finish {
+    std::uint32_t reached = 0;
+    std::uint32_t revision = 0;
+    bool operator==(const Finish&) const = default;
   };
 
   Seen now() const {
@@ -102,19 +111,20 @@ class EventDetector {
             signals_.flight.fcu.armed,
             signals_.estimate.health,
             signals_.estimate.position_doubtful,
-            signals_.estimate.position_resets,
-            signals_.trajectory.reached,
-            signals_.trajectory.finished};
+            signals_.estimate.position_resets};
   }
   autopilot::Health settled(autopilot::Health health, double time);
   void report(const Seen& fresh, double time, Timeline& timeline);
+  void look_at_route(double time, Timeline& timeline);
   void look_at_places(double time, Timeline& timeline);
 
   const autopilot::Signals& signals_;
   Seen seen_;
   autopilot::Vector3 offset_N_ = autopilot::Vector3::Zero();
   autopilot::LocalOrigin origin_;
+  std::uint32_t reached_ = 0;           // of this route
   std::uint32_t of_routes_before_ = 0;  // waypoints reached
+  std::optional<Finish> finish_;
   bool betters_ = false;
   double better_since_ = 0.0;  // s
 };

@@ -10,6 +10,7 @@ namespace ironbird::scenarios {
 
 namespace {
 
+constexpr const char* kThereFromTheStart = "it was there from the start; `after` says from when it counts";
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string at(double time) {
@@ -130,6 +131,7 @@ void Settles::take(double time) {
   always_.sample(time, margin);
   if (margin >= 0.0 && outside_) settled_at_ = time;
   outside_ = margin < 0.0;
+  was_outside_ = was_outside_ || outside_;
 }
 
 void Settles::conclude(CheckResult& result) const {
@@ -144,6 +146,10 @@ void Settles::conclude(CheckResult& result) const {
   result.explanation = outside_ ? wording().what + " had not settled at the end"
                                 : wording().what + " settled after " + with_unit(settled_at_ - *start_, "s");
   result.explanation += ", must be " + wording().bound;
+}
+
+std::string Settles::objection() const {
+  return was_outside_ || may_be_there_ ? "" : kThereFromTheStart;
 }
 
 void OvershootBelow::take(double time) {
@@ -189,7 +195,7 @@ void Reaches::conclude(CheckResult& result) const {
 }
 
 std::string Reaches::objection() const {
-  return was_outside_ || may_be_there_ ? "" : "it was there from the start; `after` says from when it counts";
+  return was_outside_ || may_be_there_ ? "" : kThereFromTheStart;
 }
 
 }  // namespace ironbird::scenarios

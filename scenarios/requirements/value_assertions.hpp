@@ -159,25 +159,32 @@ class FinalBelow final : public ValueAssertion {
   stl::Robustness last_;
 };
 
-/// settles: always within the band from `time` after the window's opening on.
+/// settles: always within the band from `time` after the window's opening on. From the start of the run on it
+/// must have been outside before.
 class Settles final : public ValueAssertion {
  public:
-  Settles(Subject subject, Wording wording, double band, double time, Eigen::Vector3d target)
+  /// @param may_be_there  when the window opens
+  Settles(Subject subject, Wording wording, double band, double time, Eigen::Vector3d target,
+          bool may_be_there)
       : ValueAssertion(std::move(subject), std::move(wording)),
         band_(band),
         target_(std::move(target)),
+        may_be_there_(may_be_there),
         always_({.from = time}) {}
 
  protected:
   void take(double time) override;
   void conclude(CheckResult& result) const override;
+  std::string objection() const override;
 
  private:
   double band_;
   Eigen::Vector3d target_;
+  bool may_be_there_;
   stl::Always always_;
   std::optional<double> start_;
   double settled_at_ = 0.0;
+  bool was_outside_ = false;
   bool outside_ = false;
 };
 

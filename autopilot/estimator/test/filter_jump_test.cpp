@@ -48,9 +48,63 @@ TEST_P(FilterTest, BelievesAReceiverThatJumpsBack) {
   EXPECT_TRUE(x.position_doubtful);
   sensors.gnss_jump.setZero();
   fly(1.0);
+  EXPECT_TRUE(x.position_doubtful) << "one fix is not enough";
+  fly(kPersistence);
   EXPECT_FALSE(x.position_doubtful);
   EXPECT_TRUE(x.position_offset_N.isZero(0.0));
+  fly(1.0);
   expect_good();
+}
+
+TEST_P(FilterTest, GoesOnDoubtingAReceiverThatComesBackInPart) {
+  fly(40.0);
+  step(armed(sensors.next()));
+  sensors.gnss_jump = {60.0, 0.0, 0.0};
+  fly(kPersistence);
+  ASSERT_TRUE(x.position_doubtful);
+  // WHEN it alternates between two wrong places, the one nearer to the right one than to the other
+  for (const double north : {25.0, 60.0, 25.0}) {
+    sensors.gnss_jump.x() = north;
+    for (int i = 0; i < 50; ++i) {
+      fly(0.1);
+      ASSERT_TRUE(x.position_doubtful) << "after " << i / 10.0 << " s at " << north << " m";
+    }
+    EXPECT_LT((x.position_offset_N - sensors.gnss_jump).norm(), 2.0);
+  }
+  EXPECT_LT(horizontal_error(), kGoodPosition);
+  EXPECT_EQ(x.position_resets, 0U);
+}
+
+TEST_P(FilterTest, IsSureLaterEachTimeTheFixesJumpAgain) {
+  fly(40.0);
+  step(armed(sensors.next()));
+  for (const bool first : {true, false}) {
+    sensors.gnss_jump = {60.0, 0.0, 0.0};
+    fly(5.0);
+    ASSERT_TRUE(x.position_doubtful);
+    sensors.gnss_jump.setZero();
+    fly(5.0);
+    EXPECT_EQ(x.position_doubtful, !first);
+  }
+  fly(2.0);
+  EXPECT_FALSE(x.position_doubtful);
+}
+
+TEST_P(FilterTest, KeepsItsDoubtWhenItIsDisarmedUntilTheFixesComeBack) {
+  fly(40.0);
+  step(armed(sensors.next()));
+  sensors.gnss_jump = {300.0, 0.0, 0.0};
+  fly(kPersistence);
+  const double latitude = x.origin.latitude;
+  SensorFrame frame = armed(sensors.next());
+  frame.status->armed = false;
+  step(frame);
+  fly(5.0);
+  EXPECT_TRUE(x.position_doubtful);
+  EXPECT_EQ(x.origin.latitude, latitude) << "the launch stays where it was on the earth";
+  sensors.gnss_jump.setZero();
+  fly(kPersistence);
+  EXPECT_FALSE(x.position_doubtful);
 }
 
 TEST_P(FilterTest, MovesItsOriginWhenTheFixesJumpOnTheGround) {
@@ -91,6 +145,21 @@ TEST_P(FilterTest, BelievesTheFixesAfterAPauseInWhichItMayHaveDrifted) {
   EXPECT_GE(x.position_resets, 1U);
   EXPECT_GT(x.position_reset_N.x(), 15.0);
   EXPECT_EQ(x.position_reset_N.z(), 0.0);
+}
+
+TEST_P(FilterTest, IsAsSureOfThePlaceItIsSetToAsTheGateIsOfAFix) {
+  AidingParams aiding;
+  aiding.gnss.sigma_horizontal = 15.0;
+  make(aiding, false);
+  fly(40.0);
+  step(armed(sensors.next()));
+  sensors.gnss_on = false;
+  fly(10.0);
+  sensors.gnss_on = true;
+  sensors.gnss_jump = {25.0, 0.0, 0.0};
+  fly(kPersistence);
+  ASSERT_EQ(x.position_resets, 1U);
+  EXPECT_NEAR(x.sigma_p_N.x(), aiding.gnss.gate_sigma, 0.1);
 }
 
 TEST_P(FilterTest, DoesNotTakeAFarJumpAfterAPauseForItsOwnDrift) {

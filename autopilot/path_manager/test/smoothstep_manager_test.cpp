@@ -355,6 +355,26 @@ TEST_F(SmoothstepManagerTest, KeepsItsLastPointWhenTheEstimateIsNotFinite) {
   EXPECT_TRUE(flight_.step().p_N.allFinite());
 }
 
+TEST_F(SmoothstepManagerTest, RemembersWhatWasFlownWhileThereIsNoEstimate) {
+  // GIVEN a vehicle on its way to the second waypoint
+  flight_.set({waypoint(1, Vector3(5, 0, 0)), waypoint(2, Vector3(20, 0, 0))});
+  ASSERT_TRUE(flight_.until(20.0, [](const auto& p) { return p.leg == 1; }));
+  // WHEN the estimate is lost
+  flight_.estimate.health = Health::kLost;
+  flight_.step();
+  // THEN the point is not to be flown, but says how far the route has come
+  EXPECT_FALSE(flight_.last.valid);
+  EXPECT_EQ(flight_.last.reached, 1u);
+  EXPECT_EQ(flight_.last.leg, 1u);
+  // AND WHEN it is lost again after the end
+  flight_.estimate.health = Health::kGood;
+  ASSERT_TRUE(flight_.until(30.0, [](const auto& p) { return p.finished; }));
+  flight_.estimate.health = Health::kLost;
+  flight_.fly(1.0);
+  EXPECT_TRUE(flight_.last.finished);
+  EXPECT_EQ(flight_.last.reached, 2u);
+}
+
 TEST_F(SmoothstepManagerTest, TakesOverAFlightWithoutAJump) {
   flight_.set({waypoint(1, Vector3(5, 0, 0)), waypoint(2, Vector3(20, 0, 0))});
   flight_.until(20.0, [](const auto& p) { return p.leg == 1; });

@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Verbs, ExamplesTest,
 
 constexpr const char* kMission =
     "duration = \"3 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n[[check]]\nname = \"c\"\nhappens = "
-    "\"autopilot.flight.fcu.armed == false\"\n";
+    "\"autopilot.flight.fcu.armed == false\"\nafter = \"1 s\"\n";
 
 class TerminalTest : public ::testing::Test {
  protected:

@@ -60,6 +60,25 @@ TEST(GroundWatchTest, CallsAVehicleOnItsBackCrashed) {
   EXPECT_EQ(show(watch, truth, true, 1.0), (std::vector<std::string>{"crashed"}));
 }
 
+TEST(GroundWatchTest, CallsAVehicleThatFallsOverAfterItsLandingCrashed) {
+  GroundWatch watch;
+  simulator::Truth truth;
+  show(watch, truth, true, 1.0);
+  show(watch, truth, false, 1.0);
+  EXPECT_EQ(show(watch, truth, true, 1.0), (std::vector<std::string>{"landed"}));
+  truth.q_NB = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+  EXPECT_TRUE(show(watch, truth, true, 0.9).empty()) << "it may come upright again";
+  EXPECT_EQ(show(watch, truth, true, 5.0), (std::vector<std::string>{"crashed"})) << "once";
+}
+
+TEST(GroundWatchTest, CallsAVehicleThatFallsOverBeforeItsFlightCrashed) {
+  GroundWatch watch;
+  simulator::Truth truth;
+  show(watch, truth, true, 1.0);
+  truth.q_NB = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+  EXPECT_EQ(show(watch, truth, true, 2.0), (std::vector<std::string>{"crashed"}));
+}
+
 TEST(GroundWatchTest, TakesAHopForNeitherFlightNorLanding) {
   GroundWatch watch;
   simulator::Truth truth;

@@ -244,6 +244,7 @@ TEST_F(JudgeTest, SeesPhasesArmingAndWaypointsAsEvents) {
   signals_.flight.fcu.armed = true;
   signals_.flight.phase = autopilot::FlightPhase::kTakeOff;
   judge.observe(10ms);
+  signals_.trajectory.valid = true;
   signals_.trajectory.reached = 2;
   judge.event(20ms, "fault", "gust");
   judge.observe(20ms);
@@ -262,6 +263,7 @@ TEST_F(JudgeTest, NamesNoWaypointTwiceWhateverRoutesThereAre) {
   Judge judge({}, table_, {&truth_, &signals_}, 10ms);
   auto time = 0ms;
   for (const std::uint32_t reached : {0U, 1U, 2U, 0U, 0U, 2U, 0U, 1U}) {
+    signals_.trajectory.valid = true;
     signals_.trajectory.reached = reached;
     judge.observe(time += 10ms);
   }
