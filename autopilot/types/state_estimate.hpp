@@ -69,6 +69,7 @@ struct StateEstimate {
   Vector3 position_offset_N = Vector3::Zero();
   std::uint32_t position_resets = 0;
   Vector3 position_reset_N = Vector3::Zero();
+  Vector3 position_reset_sum_N = Vector3::Zero();
   Health health = Health::kUninitialised;
 
   /// Velocity over ground in N, m/s.
@@ -101,6 +102,8 @@ struct StateEstimate {
     visit("position_resets", self.position_resets, "1",
           "how often the horizontal position jumped, by a reset or a large correction");
     visit("position_reset_N", self.position_reset_N, "m", "how far it jumped the last time");
+    visit("position_reset_sum_N", self.position_reset_sum_N, "m",
+          "how far all its jumps took it: who looks now and then moves along by the difference");
     visit("health", self.health, "1", "how far the estimate may be trusted");
   }
 };

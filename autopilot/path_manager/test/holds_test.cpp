@@ -186,6 +186,25 @@ TEST(ReferenceTest, DoesNotJumpWhenEstimatesStopComing) {
   EXPECT_LE((flight.last.v_N - before.v_N).norm(), 2.5 * longest + kRoundOff);
 }
 
+TEST(ReferenceTest, MovesAlongWithEveryJumpSinceItsLastStep) {
+  SmoothstepManager manager;
+  manager.set_period(std::chrono::milliseconds(20));
+  PerfectFlight flight(manager);
+  flight.set({waypoint(1, Vector3(20, 0, 0))});
+  flight.fly(3.0);
+  const Vector3 before_N = flight.last.p_N;
+  // WHEN the position jumps twice before the manager's next step
+  for (const Vector3& jump_N : {Vector3(0.0, 30.0, 0.0), Vector3(0.0, -5.0, 0.0)}) {
+    flight.estimate.p_NB_N += jump_N;
+    flight.estimate.position_reset_N = jump_N;
+    flight.estimate.position_reset_sum_N += jump_N;
+    ++flight.estimate.position_resets;
+  }
+  flight.follows = false;
+  flight.fly(0.02);
+  EXPECT_NEAR(flight.last.p_N.y() - before_N.y(), 25.0, 0.1);
+}
+
 TEST(ReferenceTest, LosesNoTimeOverAFewFramesThatAreMissing) {
   SmoothstepManager manager;
   PerfectFlight flight(manager);

@@ -62,7 +62,7 @@ TEST_F(SmoothstepManagerTest, MovesItsReferenceAlongWhenThePositionJumpsAndMakes
   // WHEN the position jumps by 30 m to the right
   const Vector3 jump_N(0.0, 30.0, 0.0);
   flight_.estimate.p_NB_N += jump_N;
-  flight_.estimate.position_reset_N = jump_N;
+  flight_.estimate.position_reset_sum_N += jump_N;
   ++flight_.estimate.position_resets;
   // THEN the reference is where it would have been, beside, and as fast
   const TrajectoryPoint after = flight_.step();
