@@ -8,15 +8,16 @@ namespace ironbird::autopilot {
 namespace {
 
 constexpr double kShortestRest = 0.3;  // s, which is enough near the height of the launch
-// Motors that idle carry less than a third of the weight, so a free vehicle falls with two thirds of gravity
-// or more; what lies on the ground accelerates only by errors of the accelerometer and of its tilt.
+// Motors that idle carry less than half of the weight, so a free vehicle falls with half of gravity or more;
+// what lies on the ground accelerates only by errors of the accelerometer and of its tilt.
 constexpr double kFalls = 3.0;           // m/s^2
 constexpr double kCarriedTime = 0.2;     // s: a pilot's throttle comes to the outputs in a tenth of that
 constexpr double kLongestBounce = 0.25;  // s, which is 8 cm high: a fall, and no bounce, is longer
 constexpr double kOutputHolds = 0.5;     // s, that the FCU's word on its outputs holds
 constexpr double kLag = 0.05;            // s, of the acceleration
-constexpr double kBlow = 5.0;            // m/s^2 upwards with idling motors: drag does not end a fall so
-constexpr double kSinks = 1.5;  // m/s down: what sinks so fast is not lying, unless a blow blurred it
+// Faster down than this it flies: the air carries a fall that comes near its greatest speed, and the estimate
+// of what has struck the ground may go on sinking, but by what the blow was short of, not by so much.
+constexpr double kSinks = 8.0;  // m/s
 
 }  // namespace
 
@@ -30,17 +31,16 @@ void RestWatch::look(const StateEstimate& estimate, bool usable, const FcuStatus
     still_with_others_.forget();
     carried_.forget();
     falling_.forget();
-    fell_ = struck_ = false;
     may_lie_ = taken ? idle : may_lie_ && idle;
     return;
   }
   feel_fall(estimate, idle);
   const double speed = estimate.position_known ? estimate.v_NB_B.norm() : std::abs(estimate.v_NB_N().z());
   still_ = speed < limits.rest_speed && estimate.w_NB_B.norm() < limits.rest_rate;
-  const bool sinks = fell_ || (!struck_ && v_down_ > kSinks);
+  const bool sinks = v_down_ > kSinks;
   if (taken) {
     may_lie_ = idle;
-  } else if (sinks || !idle) {
+  } else if (falling_.lasts(kLongestBounce, estimate.stamp) || sinks || !idle) {
     may_lie_ = false;
   }
   still_with_others_.note(still_ && (taken || may_lie_ || status.overridden()), estimate.stamp);
@@ -55,14 +55,6 @@ void RestWatch::feel_fall(const StateEstimate& estimate, bool idle) {
   last_ = estimate.stamp;
   v_down_ = v_down;
   falling_.note(idle && a_down_ >= kFalls, estimate.stamp);
-  if (falling_.lasts(kLongestBounce, estimate.stamp)) {
-    fell_ = true;
-    struck_ = false;
-  } else if (fell_ && a_down_ < -kBlow) {
-    fell_ = false;
-    struck_ = true;
-  }
-  if (!idle) fell_ = struck_ = false;
 }
 
 bool RestWatch::rests(Time now, bool low, const RestLimits& limits) const {

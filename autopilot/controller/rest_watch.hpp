@@ -13,7 +13,7 @@ struct RestLimits {
   double rest_speed = 0.15;
   double rest_rate = 0.05;
   double rest_time = 2.0;
-  double idle_output = 0.2;
+  double idle_output = 0.35;
 
   bool operator==(const RestLimits&) const = default;
 
@@ -30,9 +30,8 @@ struct RestLimits {
 };
 
 /// Feels the ground while pilot or failsafe have the vehicle: it lies still, or its motors idle and yet it
-/// neither falls nor sinks fast. Only a blow ends a fall, for at its greatest speed the air carries the
-/// vehicle. After a blow its velocity is not looked at, being wrong by metres per second: the blow is shorter
-/// than a sample.
+/// neither falls nor sinks very fast. Less than that its velocity does not tell: the blow of a touch-down is
+/// shorter than a sample, and leaves the estimate wrong by metres per second.
 ///
 /// When it is handed back with idling motors it may lie or fly, until it falls for as long as no bounce
 /// lasts, or is felt to lie.
@@ -70,10 +69,8 @@ class RestWatch {
   bool still_ = false;
   bool may_lie_ = false;
   Since still_with_others_;
-  Since carried_;        // although its motors idle, in other hands
-  Since falling_;        // with idling motors
-  bool fell_ = false;    // for longer than a bounce, and nothing has stopped it since
-  bool struck_ = false;  // a blow has ended the last fall
+  Since carried_;  // although its motors idle, in other hands
+  Since falling_;  // with idling motors
 };
 
 }  // namespace ironbird::autopilot

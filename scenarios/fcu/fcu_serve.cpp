@@ -37,6 +37,7 @@ struct ServeArguments {
   std::string pty;
   int udp = 0;
   double duration = 0.0;  // s
+  bool idle_pilot = false;
 };
 
 /// Where others find it, and what to type there.
@@ -81,8 +82,9 @@ void tell(const ServedUnit& unit, Time lost) {
 
 int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
   note_interrupts();
-  const LoadedScenario loaded =
+  LoadedScenario loaded =
       load_scenario(arguments.scenario, {split_settings(arguments.settings), std::nullopt}, modules);
+  if (arguments.idle_pilot) loaded.scenario.pilot.automatic = false;
   const Line line = open_line(arguments);
   ServedUnit unit(loaded.scenario, *line.stream);
   std::fprintf(stderr, "serving %s; connect with: ironbird fcu info %s; Ctrl-C ends\n",
@@ -127,6 +129,8 @@ FcuWork declare_fcu_serve(CLI::App& app) {
       ->check(CLI::Range(1, 65535));
   app.add_option("--duration", arguments->duration, "end after so many seconds")
       ->check(CLI::Range(0.1, 86400.0));
+  app.add_flag("--idle-pilot", arguments->idle_pilot,
+               "the pilot leaves the switches alone: it is never armed");
   app.footer(
       "A virtual unit that others meet as they would meet a real one, in real time: streams and rates, "
       "texts, parameters,\n"
