@@ -15,11 +15,9 @@ const FcuCommand& Controller::run(const ControlSetpoint& setpoint, bool landing,
                                   const StateEstimate& estimate, const FcuStatus& status) {
   double dt = 0.0;
   if (!stands_still(estimate) && !divider_.due(estimate.stamp, period(), dt)) return last_;
-  if (estimate.position_resets != position_resets_) {
-    // Not the vehicle has moved, but where it is said to be.
-    memory_.point_N += estimate.position_reset_N;
-    position_resets_ = estimate.position_resets;
-  }
+  // Where the estimate has jumped, not the vehicle has moved, but where it is said to be.
+  memory_.point_N += estimate.position_reset_sum_N - position_reset_sum_N_;
+  position_reset_sum_N_ = estimate.position_reset_sum_N;
   const FlightPhase before = phase();
   last_ = control(all_finite(setpoint) ? setpoint : kNothing, landing, estimate, status, dt, step_);
   if (phase() != before) {
@@ -45,7 +43,7 @@ void Controller::reset() {
   last_ = SilenceCommand{};
   step_ = PhaseStep{};
   memory_ = FlightMemory{};
-  position_resets_ = 0;
+  position_reset_sum_N_.setZero();
   divider_.reset();
   stamp_ = Time{-1};
   standing_still_ = 0;
@@ -55,7 +53,7 @@ void Controller::take_over(const Signals& signals) {
   last_ = signals.command;
   step_ = {signals.flight.phase, signals.flight.cause};
   memory_ = signals.flight.memory;
-  position_resets_ = signals.estimate.position_resets;
+  position_reset_sum_N_ = signals.estimate.position_reset_sum_N;
 }
 
 }  // namespace ironbird::autopilot

@@ -56,9 +56,9 @@ class Controller : public Module {
   FcuCommand last_ = SilenceCommand{};
   PhaseStep step_;
   FlightMemory memory_;
-  std::uint32_t position_resets_ = 0;  // seen
-  Time stamp_{-1};                     // of the step before
-  int standing_still_ = 0;             // steps
+  Vector3 position_reset_sum_N_ = Vector3::Zero();  // seen
+  Time stamp_{-1};                                  // of the step before
+  int standing_still_ = 0;                          // steps
   Divider divider_;
 };
 

@@ -4,9 +4,9 @@
 
 namespace ironbird::autopilot {
 
-/// Counts the jumps of the horizontal position in a stream of estimates and says how far the last one went
-/// and all together, so that whoever holds a place in N can move it along. Whatever made the jump: a reset, a
-/// large correction, an exchange of estimators.
+/// Counts the jumps of the horizontal position in a stream of estimates and says how far they went
+/// all together, so that whoever holds a place in N can move it along by what was added. Whatever made the
+/// jump: a reset, a large correction, an exchange of estimators.
 class PositionWatch {
  public:
   /// From here on a change of position that the velocity does not explain is a jump, m.
@@ -16,7 +16,6 @@ class PositionWatch {
   void go_on_from(const StateEstimate& last) {
     last_ = last;
     resets_ = last.position_resets;
-    reset_N_ = last.position_reset_N;
     sum_N_ = last.position_reset_sum_N;
   }
 
@@ -27,12 +26,10 @@ class PositionWatch {
       jump_N.z() = 0.0;
       if (jump_N.squaredNorm() > kLeastJump * kLeastJump) {
         ++resets_;
-        reset_N_ = jump_N;
         sum_N_ += jump_N;
       }
     }
     fresh.position_resets = resets_;
-    fresh.position_reset_N = reset_N_;
     fresh.position_reset_sum_N = sum_N_;
     last_ = fresh;
   }
@@ -40,7 +37,6 @@ class PositionWatch {
  private:
   StateEstimate last_;
   std::uint32_t resets_ = 0;
-  Vector3 reset_N_ = Vector3::Zero();
   Vector3 sum_N_ = Vector3::Zero();
 };
 

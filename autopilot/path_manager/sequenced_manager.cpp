@@ -41,7 +41,6 @@ void SequencedManager::reset() {
   now_ = Time{0};
   revision_ = released_ = holds_ = newest_id_ = size_ = 0;
   target_ = Waypoint{};
-  position_resets_ = 0;
   position_reset_sum_N_.setZero();
 }
 
@@ -59,7 +58,6 @@ void SequencedManager::take_over(const Signals& signals) {
   released_ = signals.route.released;
   holds_ = signals.route.holds;
   size_ = size_of(signals.route);
-  position_resets_ = signals.estimate.position_resets;
   position_reset_sum_N_ = signals.estimate.position_reset_sum_N;
   for (const Waypoint& waypoint : signals.route.waypoints) newest_id_ = std::max(newest_id_, waypoint.id);
   index_ = std::min(last.leg, size_);
@@ -128,11 +126,9 @@ void SequencedManager::pass_time(Time since_last) {
 }
 
 void SequencedManager::move_with(const StateEstimate& estimate) {
-  const bool jumped = estimate.position_resets != position_resets_;
   const Vector3 jump_N = estimate.position_reset_sum_N - position_reset_sum_N_;
-  position_resets_ = estimate.position_resets;
   position_reset_sum_N_ = estimate.position_reset_sum_N;
-  if (!jumped || mode_ == Mode::kAway) return;
+  if (jump_N.isZero(0.0) || mode_ == Mode::kAway) return;
   MotionPoint from = reference();
   from.p_N += jump_N;
   brake(from);

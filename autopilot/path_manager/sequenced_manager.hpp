@@ -116,7 +116,6 @@ class SequencedManager : public PathManager {
   std::uint32_t holds_ = 0;
   std::uint32_t newest_id_ = 0;
   std::uint32_t size_ = 0;
-  std::uint32_t position_resets_ = 0;
   Vector3 position_reset_sum_N_ = Vector3::Zero();
   Waypoint target_;
 };

@@ -12,13 +12,13 @@ namespace ironbird::autopilot {
 /// The controller's state machine. ROScopter paper, section on the controller; landing and what follows is
 /// ours.
 enum class FlightPhase : std::uint8_t {
-  kDisarmed,      ///< on the ground: nothing is sent; waits for arming and a request to take off
+  kDisarmed,      ///< on the ground, waits for arming and a request to take off: nothing or zeros are sent
   kTakeOff,       ///< climbing on the spot
   kHold,          ///< holding a point
   kOffboard,      ///< flying the follower's setpoint
   kLanding,       ///< descending on the spot until the ground is felt
   kLevelDescent,  ///< descending level, on height and attitude alone, until the ground is felt
-  kSilent         ///< no estimate to fly on: nothing is sent, the FCU's own time-out decides
+  kSilent  ///< no estimate to fly on: in the air level for a moment, then nothing is sent and the FCU decides
 };
 
 constexpr std::array<std::pair<FlightPhase, std::string_view>, 7> enumerators(FlightPhase) {

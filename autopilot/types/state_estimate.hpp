@@ -68,7 +68,6 @@ struct StateEstimate {
   bool position_doubtful = false;
   Vector3 position_offset_N = Vector3::Zero();
   std::uint32_t position_resets = 0;
-  Vector3 position_reset_N = Vector3::Zero();
   Vector3 position_reset_sum_N = Vector3::Zero();
   Health health = Health::kUninitialised;
 
@@ -101,7 +100,6 @@ struct StateEstimate {
     visit("position_offset_N", self.position_offset_N, "m", "by how much they have stepped, taken off them");
     visit("position_resets", self.position_resets, "1",
           "how often the horizontal position jumped, by a reset or a large correction");
-    visit("position_reset_N", self.position_reset_N, "m", "how far it jumped the last time");
     visit("position_reset_sum_N", self.position_reset_sum_N, "m",
           "how far all its jumps took it: who looks now and then moves along by the difference");
     visit("health", self.health, "1", "how far the estimate may be trusted");

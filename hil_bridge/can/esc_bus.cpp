@@ -1,11 +1,11 @@
 #include "hil_bridge/can/esc_bus.hpp"
 
-#include "hil_bridge/can/bounds_check.hpp"
+#include "simulator/types/bounds.hpp"
 
 namespace ironbird::hil_bridge::can {
 
 EscBus::EscBus(const EscBusParams& params, transport::FrameBus& bus, Time start) : bus_(bus) {
-  EscBusParams::describe(params, BoundsCheck("esc_bus"));
+  simulator::check_bounds(params, "esc_bus");
   nodes_.reserve(static_cast<std::size_t>(params.count));
   for (int motor = 0; motor < params.count; ++motor) {
     EscNodeParams node;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hil_bridge/can/bounds_check.hpp"
+#include "simulator/types/bounds.hpp"
 
 namespace ironbird::hil_bridge::can {
 
@@ -22,7 +22,7 @@ constexpr std::array kSays = {NodeStatus::kType.key, RawCommand::kType.key, Armi
                               GetNodeInfoRequest::kType.key, Allocation::kType.key};
 
 const EscControllerParams& checked(const EscControllerParams& params) {
-  EscControllerParams::describe(params, BoundsCheck("esc_controller"));
+  simulator::check_bounds(params, "esc_controller");
   return params;
 }
 

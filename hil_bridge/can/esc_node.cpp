@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hil_bridge/can/bounds_check.hpp"
+#include "simulator/types/bounds.hpp"
 
 namespace ironbird::hil_bridge::can {
 
@@ -22,7 +22,7 @@ constexpr std::array kHears = {
 constexpr std::array kSays = {NodeStatus::kType.key, EscStatus::kType.key, Allocation::kType.key};
 
 const EscNodeParams& checked(const EscNodeParams& params) {
-  EscNodeParams::describe(params, BoundsCheck("esc_node"));
+  simulator::check_bounds(params, "esc_node");
   return params;
 }
 

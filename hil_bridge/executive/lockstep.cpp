@@ -10,7 +10,6 @@ namespace ironbird::hil_bridge {
 namespace {
 
 constexpr Time kHeartbeatPeriod{1'000'000'000};
-constexpr std::uint8_t kDialectVersion = 2;
 // A tick brings a handful of messages; the reserve keeps the step free of allocation.
 constexpr std::size_t kInboxReserve = 512;
 
@@ -29,7 +28,7 @@ Time Lockstep::tick() {
   now_ += period_;
   stepped_ = false;
   if (now_ >= next_heartbeat_) {
-    fcu_.send(rosflight::Heartbeat{.mavlink_version = kDialectVersion});
+    fcu_.send(rosflight::Heartbeat{.mavlink_version = rosflight::kDialectVersion});
     next_heartbeat_ += kHeartbeatPeriod;
   }
   fcu_.advance(now_);

@@ -61,8 +61,4 @@ rosflight::OffboardControl zero_command() {
   return {};
 }
 
-bool is_zero(const rosflight::OffboardControl& command) {
-  return std::all_of(command.u.begin(), command.u.end(), [](float value) { return value == 0.0F; });
-}
-
 }  // namespace ironbird::hil_bridge

@@ -42,7 +42,6 @@ class CommandCheck {
  public:
   explicit CommandCheck(const CommandLimits& limits) : limits_(limits) {}
   CommandFault check(const StampedCommand& command, Time now);
-  void restart() { last_number_ = 0; }
 
  private:
   CommandLimits limits_;
@@ -51,7 +50,5 @@ class CommandCheck {
 
 /// No thrust and no torque: motors idle if the unit is armed.
 rosflight::OffboardControl zero_command();
-/// Does this command ask for any thrust or torque, rate or angle?
-bool is_zero(const rosflight::OffboardControl& command);
 
 }  // namespace ironbird::hil_bridge

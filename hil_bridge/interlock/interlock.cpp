@@ -2,18 +2,6 @@
 
 namespace ironbird::hil_bridge {
 
-namespace {
-
-constexpr std::uint8_t kSendVersion = 10;
-
-bool changes_the_unit(const rosflight::Message& message) {
-  if (std::holds_alternative<rosflight::ParamSet>(message)) return true;
-  const auto* order = std::get_if<rosflight::RosflightCmd>(&message);
-  return order != nullptr && order->command != kSendVersion;
-}
-
-}  // namespace
-
 Interlock::Interlock(const InterlockConfig& config) : config_(config), check_(config.limits) {}
 
 const InterlockStatus& Interlock::step(InterlockInputs in, Time now) {
@@ -52,12 +40,12 @@ std::optional<rosflight::OffboardControl> Interlock::idle() const {
 }
 
 std::optional<rosflight::Message> Interlock::pass(const rosflight::Message& message, Time) {
-  if (std::holds_alternative<rosflight::OffboardControl>(message)) return std::nullopt;
-  // It never times out, and a "servo" at its centre is half throttle to a speed controller. The bench needs
-  // none.
-  if (std::holds_alternative<rosflight::RosflightAuxCmd>(message)) return std::nullopt;
+  const Effect effect = effect_of(message);
+  // An auxiliary command never times out, and a "servo" at its centre is half throttle to a speed controller:
+  // the bench sends none. Any other motor command has a stamp and goes through `command`.
+  if (effect == Effect::kMoves) return std::nullopt;
   const bool released = status_.state == InterlockState::kReleased || status_.state == InterlockState::kLive;
-  if (changes_the_unit(message) && (released || !unit_disarmed_)) return std::nullopt;
+  if (effect == Effect::kChanges && (released || !unit_disarmed_)) return std::nullopt;
   return message;
 }
 

@@ -1,7 +1,6 @@
 #include "hil_bridge/interlock/interlock_state.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 namespace ironbird::hil_bridge {
 
@@ -105,8 +104,8 @@ std::string_view name_of(InterlockState state) {
   return kNames[static_cast<std::size_t>(state)];
 }
 
-InterlockRows interlock_rows() {
-  return {std::begin(kRows), std::end(kRows)};
+std::span<const InterlockRow> interlock_rows() {
+  return kRows;
 }
 
 const InterlockRow* deciding_row(InterlockState state, const InterlockInputs& in) {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
-#include <optional>
+#include <span>
 #include <string_view>
 
 namespace ironbird::hil_bridge {
@@ -75,12 +75,6 @@ struct InterlockRow {
 const InterlockRow* deciding_row(InterlockState state, const InterlockInputs& in);
 
 /// All rows, in the order in which they are tried.
-struct InterlockRows {
-  const InterlockRow* first;
-  const InterlockRow* last;
-  const InterlockRow* begin() const { return first; }
-  const InterlockRow* end() const { return last; }
-};
-InterlockRows interlock_rows();
+std::span<const InterlockRow> interlock_rows();
 
 }  // namespace ironbird::hil_bridge

@@ -6,6 +6,7 @@
 #include "hil_bridge/rosflight/parameter_messages.hpp"
 #include "hil_bridge/rosflight/sensor_messages.hpp"
 #include "hil_bridge/rosflight/state_messages.hpp"
+#include "hil_bridge/rosflight/vocabulary.hpp"
 
 // The vocabulary of the ROSflight 2.0 link: its 25 messages as plain structs. `kId` and `kName` are those of
 // the dialect, and so are the names, types and order of what `describe` visits: dialect.hpp computes lengths

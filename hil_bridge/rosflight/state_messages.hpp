@@ -64,7 +64,6 @@ struct RosflightOutputRaw {
 struct RosflightStatus {
   static constexpr std::uint8_t kId = 191;
   static constexpr const char* kName = "ROSFLIGHT_STATUS";
-  static constexpr std::uint8_t kUncalibratedImu = 0x20;  ///< of error_code
 
   std::uint16_t rc_override{};
   std::int16_t num_errors{};
@@ -77,13 +76,13 @@ struct RosflightStatus {
 
   template <class Self, class Visit>
   static constexpr void describe(Self& self, Visit&& visit) {
-    visit("rc_override", self.rc_override, "1", "bits: which axes the pilot holds and why");
+    visit("rc_override", self.rc_override, "1", "OverrideBit: which axes the pilot holds and why");
     visit("num_errors", self.num_errors, "1", "sensor read errors");
     visit("loop_time_us", self.loop_time_us, "us", "duration of the control pass");
     visit("armed", self.armed, "1", "motors may turn");
     visit("failsafe", self.failsafe, "1", "flies the failsafe command");
     visit("offboard", self.offboard, "1", "a command of the companion is active");
-    visit("error_code", self.error_code, "1", "bits: faults");
+    visit("error_code", self.error_code, "1", "ErrorBit");
     visit("control_mode", self.control_mode, "1", "0 pass-through, 1 rates, 2 angles");
   }
 };

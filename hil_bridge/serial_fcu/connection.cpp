@@ -15,13 +15,6 @@ constexpr Time kGone = std::chrono::seconds(3);
 // The clock of a unit that has booted starts at zero; one that merely sends two streams out of order steps
 // back by less.
 constexpr Time kBootStep = milliseconds(500);
-constexpr std::uint8_t kDialectVersion = 2;
-constexpr std::uint8_t kSendVersion = 10;
-
-/// Letters up to the first zero, if there is one.
-std::string text_of(const std::array<char, 50>& letters) {
-  return {letters.begin(), std::find(letters.begin(), letters.end(), '\0')};
-}
 
 Time from_microseconds(std::uint64_t us) {
   return Time{static_cast<std::int64_t>(us) * 1000};
@@ -69,7 +62,7 @@ void Connection::take(const rosflight::Message& message, Time now) {
   } else if (const auto* acknowledged = std::get_if<rosflight::RosflightCmdAck>(&message)) {
     parameters_.take(*acknowledged);
   } else if (const auto* version = std::get_if<rosflight::RosflightVersion>(&message)) {
-    version_ = text_of(version->version);
+    version_ = rosflight::text_of(version->version);
   } else if (std::holds_alternative<rosflight::Heartbeat>(message)) {
     heartbeat_ = now;
   } else if (std::holds_alternative<rosflight::RcChannels>(message)) {
@@ -94,10 +87,11 @@ void Connection::hear(Time fcu, Time now) {
 
 void Connection::judge() {
   const ParameterProgress& progress = parameters_.progress();
-  if (progress.count != 0 && progress.count != kParameters) {
+  if (progress.count != 0 && progress.count != rosflight::kParameterCount) {
     state_ = ConnectionState::kRefused;
     refusal_ = "the unit has " + std::to_string(progress.count) + " parameters, ROSflight 2.0 has " +
-               std::to_string(kParameters) + (version_.empty() ? "" : "; it calls itself " + version_) +
+               std::to_string(rosflight::kParameterCount) +
+               (version_.empty() ? "" : "; it calls itself " + version_) +
                "; flash a firmware of version 2.0";
     return;
   }
@@ -113,13 +107,13 @@ void Connection::advance(Time now, const Send& send) {
     state_ = ConnectionState::kSilent;
   if (heartbeat_due_ == Time::min() || now >= heartbeat_due_) {
     heartbeat_due_ = now + kHeartbeatPeriod;
-    send(rosflight::Heartbeat{.mavlink_version = kDialectVersion});
+    send(rosflight::Heartbeat{.mavlink_version = rosflight::kDialectVersion});
   }
   // Asked while armed it would only be refused.
   const bool armed = status_ && status_->armed != 0;
   if (version_.empty() && !armed && (version_due_ == Time::min() || now >= version_due_)) {
     version_due_ = now + kVersionPeriod;
-    send(rosflight::RosflightCmd{.command = kSendVersion});
+    send(rosflight::RosflightCmd{.command = rosflight::kSendVersion});
   }
   if (config_.synchronise && (exchange_due_ == Time::min() || now >= exchange_due_)) {
     exchange_due_ = now + kExchangePeriod;

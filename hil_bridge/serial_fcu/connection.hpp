@@ -51,7 +51,6 @@ class Connection {
   static constexpr Time kHeartbeatSilence = std::chrono::seconds(3);
   static constexpr Time kRcSilence = std::chrono::milliseconds(100);
   static constexpr Time kStatusSilence = std::chrono::milliseconds(500);
-  static constexpr int kParameters = 333;  ///< of every ROSflight 2.0 unit
 
   explicit Connection(const ConnectionConfig& config = {});
 

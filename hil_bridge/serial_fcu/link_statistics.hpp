@@ -49,7 +49,6 @@ class LinkStatistics {
   LinkHealth health(Time now, const rosflight::DecoderCounts& counts, Time round_trip) const;
   /// Frames of one kind in the last whole second.
   int rate(std::size_t kind) const { return rates_[kind]; }
-  std::optional<Time> last_frame() const { return last_frame_; }
 
  private:
   std::optional<std::uint8_t> sequence_;

@@ -19,7 +19,6 @@ constexpr int kSetTries = 40;  // each reads back and sets again: 2^-40 is lost 
 constexpr std::size_t kSetsAtOnce = 8;
 constexpr Time kWriteAnswer = milliseconds(1000);
 constexpr int kWriteTries = 10;
-constexpr std::uint8_t kWriteToFlash = 6;
 constexpr int kMostParameters = 4096;
 
 }  // namespace
@@ -44,7 +43,8 @@ void ParameterClient::take(const rosflight::ParamValue& message, Time now) {
     progress_.count = message.param_count;
   }
   std::optional<ParameterRecord>& record = slots_[message.param_index].record;
-  const ParameterRecord heard{parameter_name(message.param_id), message.param_type, message.param_value.bits};
+  const ParameterRecord heard{std::string(rosflight::text_of(message.param_id)), message.param_type,
+                              message.param_value.bits};
   if (!record) {
     ++progress_.known;
   } else if (*record != heard) {
@@ -57,7 +57,7 @@ void ParameterClient::take(const rosflight::ParamValue& message, Time now) {
 }
 
 void ParameterClient::take(const rosflight::RosflightCmdAck& message) {
-  if (message.command != kWriteToFlash || write_ != ParameterOutcome::kPending) return;
+  if (message.command != rosflight::kWriteParameters || write_ != ParameterOutcome::kPending) return;
   write_ = message.success != 0 ? ParameterOutcome::kDone : ParameterOutcome::kRefused;
   if (write_ == ParameterOutcome::kDone) unsaved_ = false;
 }
@@ -137,7 +137,7 @@ void ParameterClient::advance_sets(Time now, const Send& send) {
     send(rosflight::ParamSet{.param_value = {set.wanted.bits},
                              .target_system = system_,
                              .target_component = 0,
-                             .param_id = parameter_field(set.wanted.name),
+                             .param_id = rosflight::field_of<16>(set.wanted.name),
                              .param_type = set.wanted.type});
     set.read_back = true;
   }
@@ -158,7 +158,7 @@ void ParameterClient::advance_write(Time now, const Send& send) {
     write_ = ParameterOutcome::kNoAnswer;
     return;
   }
-  send(rosflight::RosflightCmd{.command = kWriteToFlash});
+  send(rosflight::RosflightCmd{.command = rosflight::kWriteParameters});
 }
 
 std::vector<ParameterRecord> ParameterClient::known() const {

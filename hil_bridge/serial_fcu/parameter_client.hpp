@@ -16,7 +16,6 @@ namespace ironbird::hil_bridge {
 enum class ParameterOutcome : std::uint8_t {
   kPending,
   kDone,       ///< the FCU has said the value that was asked for
-  kUnknown,    ///< it has no such parameter, or one of another type
   kRefused,    ///< it answered no, as it does when armed
   kNoAnswer,   ///< it did not answer in time
   kDifferent,  ///< it keeps another value
@@ -74,13 +73,12 @@ class ParameterClient {
 
   /// Is nothing under way?
   bool idle() const { return sets_.empty() && write_ != ParameterOutcome::kPending; }
-  /// Sets that did not come to be, with the reason; the list grows until `clear_failures`.
+  /// Sets that did not come to be, with the reason; oldest first.
   struct Failure {
     ParameterRecord wanted;
     ParameterOutcome outcome;
   };
   const std::vector<Failure>& failures() const { return failures_; }
-  void clear_failures() { failures_.clear(); }
   ParameterOutcome write_outcome() const { return write_; }
   /// Has a value changed since the last write to flash that went well?
   bool unsaved() const { return unsaved_; }

@@ -37,16 +37,6 @@ std::string text_of(T value, Base... base) {
 
 }  // namespace
 
-std::string parameter_name(const std::array<char, 16>& field) {
-  return {field.begin(), std::find(field.begin(), field.end(), '\0')};
-}
-
-std::array<char, 16> parameter_field(std::string_view name) {
-  std::array<char, 16> field{};
-  std::copy_n(name.begin(), std::min(name.size(), field.size()), field.begin());
-  return field;
-}
-
 std::string value_text(const ParameterRecord& record) {
   if (record.type == kIntegerParameter) return text_of(std::bit_cast<std::int32_t>(record.bits));
   const auto value = std::bit_cast<float>(record.bits);

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "hil_bridge/rosflight/parameter_messages.hpp"
+#include "hil_bridge/rosflight/vocabulary.hpp"
 
 namespace ironbird::hil_bridge {
 
@@ -28,12 +27,8 @@ struct ParameterRecord {
   bool operator==(const ParameterRecord&) const = default;
 };
 
-inline constexpr std::uint8_t kIntegerParameter = 6;
-inline constexpr std::uint8_t kRealParameter = 9;
-
-/// The name in a message as text, and the other way round.
-std::string parameter_name(const std::array<char, 16>& field);
-std::array<char, 16> parameter_field(std::string_view name);
+inline constexpr auto kIntegerParameter = static_cast<std::uint8_t>(rosflight::ParameterType::kInteger);
+inline constexpr auto kRealParameter = static_cast<std::uint8_t>(rosflight::ParameterType::kReal);
 
 /// The value as text that reads back to the same bits: "4", "0.075", "nan(0x7fa12345)".
 std::string value_text(const ParameterRecord& record);

@@ -11,22 +11,10 @@ constexpr Time kTryAgain = std::chrono::milliseconds(20);
 constexpr std::size_t kInboxRoom = 4096;  // messages: a second of a unit that sends as fast as its line goes
 constexpr std::size_t kOutgoingRoom =
     8192;  // bytes: 90 ms of a line of 921600 Bd, less than commands stay valid
-constexpr std::uint8_t kWriteToFlash = 6;
-
-/// Can this message neither turn a motor nor change the unit?
-bool only_asks(const rosflight::Message& message) {
-  constexpr std::uint8_t kSendVersion = 10;
-  const auto* order = std::get_if<rosflight::RosflightCmd>(&message);
-  return std::holds_alternative<rosflight::Heartbeat>(message) ||
-         std::holds_alternative<rosflight::Timesync>(message) ||
-         std::holds_alternative<rosflight::ParamRequestList>(message) ||
-         std::holds_alternative<rosflight::ParamRequestRead>(message) ||
-         (order != nullptr && order->command == kSendVersion);
-}
 
 bool writes_to_flash(const rosflight::Message& message) {
   const auto* order = std::get_if<rosflight::RosflightCmd>(&message);
-  return order != nullptr && order->command == kWriteToFlash;
+  return order != nullptr && order->command == rosflight::kWriteParameters;
 }
 
 }  // namespace
@@ -95,11 +83,8 @@ void SerialFcu::receive(std::vector<Arrival>& out) {
 }
 
 void SerialFcu::send(const rosflight::Message& message) {
-  if (gate_ == nullptr) {
-    if (only_asks(message)) write(message);
-  } else if (const std::optional<rosflight::Message> passed = gate_->pass(message, now_)) {
-    write(*passed);
-  }
+  Gate& gate = gate_ == nullptr ? static_cast<Gate&>(questions_) : *gate_;
+  if (const std::optional<rosflight::Message> passed = gate.pass(message, now_)) write(*passed);
 }
 
 void SerialFcu::write(const rosflight::Message& message) {

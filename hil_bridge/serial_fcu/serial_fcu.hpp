@@ -59,7 +59,8 @@ class SerialFcu final : public Fcu {
   void write(const rosflight::Message& message);
 
   transport::ByteStream& line_;
-  Gate* gate_;
+  QuestionGate questions_;
+  Gate* gate_;  // null: questions only
   Time now_{};
   rosflight::StreamDecoder decoder_;
   Connection connection_;

@@ -98,7 +98,7 @@ void SensorFrameBuilder::take(const rosflight::RosflightStatus& message, Time wh
   status.offboard = message.offboard != 0;
   status.rc_override = message.rc_override;
   status.error_code = message.error_code;
-  status.imu_calibrated = (message.error_code & rosflight::RosflightStatus::kUncalibratedImu) == 0;
+  status.imu_calibrated = (message.error_code & rosflight::kUncalibratedImu) == 0;
   status.battery_voltage = battery_voltage_;
   status.greatest_output = greatest_output_;
   status.output_stamp = output_stamp_;

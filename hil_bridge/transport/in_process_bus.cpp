@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "hil_bridge/can/bounds_check.hpp"
 #include "hil_bridge/transport/bounded_queue.hpp"
+#include "simulator/types/bounds.hpp"
 
 namespace ironbird::hil_bridge::transport {
 
@@ -116,7 +116,7 @@ class InProcessBus::End final : public FrameBus {
 };
 
 InProcessBus::InProcessBus(const InProcessBusParams& params) : params_(params), dice_(params.seed) {
-  InProcessBusParams::describe(params_, can::BoundsCheck("in_process_bus"));
+  simulator::check_bounds(params_, "in_process_bus");
 }
 
 InProcessBus::~InProcessBus() = default;

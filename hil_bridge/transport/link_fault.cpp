@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
-#include <stdexcept>
 #include <utility>
+
+#include "simulator/types/bounds.hpp"
 
 namespace ironbird::hil_bridge::transport {
 
@@ -16,35 +16,8 @@ using std::chrono::nanoseconds;
 constexpr double kNanoseconds = 1e9;
 constexpr std::size_t kGreatestNoise = 16;
 
-void check_probability(const char* key, double value, double least) {
-  if (value >= least && value <= 1.0) return;
-  throw std::invalid_argument(std::string("link_fault.") + key + " = " + std::to_string(value) +
-                              ", must be within " + (least > 0.0 ? "1e-6..1" : "0..1"));
-}
-
 DirectionFaults checked(const DirectionFaults& faults) {
-  for (const auto& [key, value] : {std::pair{"drop", faults.drop},
-                                   {"burst_start", faults.burst_start},
-                                   {"corrupt", faults.corrupt},
-                                   {"insert", faults.insert},
-                                   {"duplicate", faults.duplicate},
-                                   {"reorder", faults.reorder},
-                                   {"stall", faults.stall},
-                                   {"hang_up", faults.hang_up}}) {
-    check_probability(key, value, 0.0);
-  }
-  check_probability("burst_end", faults.burst_end, 1e-6);
-  for (const auto& [key, value] :
-       {std::pair{"stall_time", faults.stall_time}, {"latency", faults.latency}, {"jitter", faults.jitter}}) {
-    if (value < nanoseconds::zero()) {
-      throw std::invalid_argument(std::string("link_fault.") + key + " = " + std::to_string(value.count()) +
-                                  " ns, must be >= 0");
-    }
-  }
-  if (!(faults.byte_rate >= 0.0 && std::isfinite(faults.byte_rate))) {
-    throw std::invalid_argument("link_fault.byte_rate = " + std::to_string(faults.byte_rate) +
-                                " byte/s, must be >= 0");
-  }
+  simulator::check_bounds(faults, "link_fault");
   return faults;
 }
 

@@ -17,6 +17,12 @@ namespace {
 // A pseudo-terminal and a USB port agree to anything; a real converter must come close for bytes to arrive.
 constexpr int kBaudTolerancePercent = 3;
 
+/// The rate that the driver makes of what was asked for, Bd, or 0.
+int actual_baud(int descriptor) {
+  termios2 settings{};
+  return ioctl(descriptor, TCGETS2, &settings) == 0 ? static_cast<int>(settings.c_ospeed) : 0;
+}
+
 }  // namespace
 
 std::string set_raw(int descriptor, int baud) {
@@ -39,11 +45,6 @@ std::string set_raw(int descriptor, int baud) {
   }
   ioctl(descriptor, TCFLSH, TCIOFLUSH);  // what lay in the queues belongs to somebody else
   return {};
-}
-
-int actual_baud(int descriptor) {
-  termios2 settings{};
-  return ioctl(descriptor, TCGETS2, &settings) == 0 ? static_cast<int>(settings.c_ospeed) : 0;
 }
 
 bool set_low_latency(int descriptor) {

@@ -10,9 +10,6 @@ namespace ironbird::hil_bridge::transport {
 /// @return empty, or why the line would not take it
 std::string set_raw(int descriptor, int baud);
 
-/// The rate that the driver makes of what was asked for, Bd, or 0.
-int actual_baud(int descriptor);
-
 /// Asks the driver to hand bytes on at once instead of gathering them (16 ms on some converters).
 /// @return did it agree? Most lines that need no such thing do not
 bool set_low_latency(int descriptor);

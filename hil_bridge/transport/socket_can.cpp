@@ -15,9 +15,9 @@
 #include <ctime>
 #include <stdexcept>
 
-#include "hil_bridge/can/bounds_check.hpp"
 #include "hil_bridge/transport/can_error_frame.hpp"
 #include "hil_bridge/transport/can_link.hpp"
+#include "simulator/types/bounds.hpp"
 
 namespace ironbird::hil_bridge::transport {
 
@@ -116,7 +116,7 @@ struct SocketCan::Arrival {
 
 SocketCan::SocketCan(const SocketCanParams& params, Time epoch)
     : params_(params), epoch_(epoch), events_(kEventQueue) {
-  SocketCanParams::describe(params_, can::BoundsCheck("socket_can"));
+  simulator::check_bounds(params_, "socket_can");
   filters_.reserve(kMostFilters);
   try {
     open();

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "hil_bridge/rosflight/vocabulary.hpp"
+
 namespace ironbird::hil_bridge::virtual_fcu {
 
 /// Where the firmware is between power-up and flight.
@@ -44,17 +46,8 @@ constexpr std::array<std::pair<Event, std::string_view>, 9> enumerators(Event) {
            {Event::kCalibrationFailed, "calibration_failed"}}};
 }
 
-/// Bits of the error code.
-enum ErrorBit : std::uint16_t {
-  kInvalidMixer = 0x01,
-  kImuNotResponding = 0x02,
-  kErrorRcLost = 0x04,
-  kUnhealthyEstimator = 0x08,
-  kTimeGoingBackwards = 0x10,
-  kUncalibratedImu = 0x20,
-  kBufferOverrun = 0x40,
-  kInvalidFailsafe = 0x80
-};
+using enum rosflight::ErrorBit;
+using rosflight::ErrorBit;
 
 /// What a transition does besides changing the state, as bits.
 enum ArmingAction : std::uint16_t {

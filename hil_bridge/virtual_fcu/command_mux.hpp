@@ -10,19 +10,7 @@
 
 namespace ironbird::hil_bridge::virtual_fcu {
 
-/// Bits that say which axes the pilot holds, and why.
-enum OverrideBit : std::uint16_t {
-  kAttitudeSwitch = 0x001,
-  kThrottleSwitch = 0x002,
-  kRollStick = 0x004,
-  kPitchStick = 0x008,
-  kYawStick = 0x010,
-  kMinimumThrottle = 0x020,
-  kRollInactive = 0x040,
-  kPitchInactive = 0x080,
-  kYawInactive = 0x100,
-  kThrottleInactive = 0x200
-};
+using enum rosflight::OverrideBit;
 inline constexpr std::uint16_t kAttitudeOverrides =
     kAttitudeSwitch | kRollStick | kPitchStick | kYawStick | kRollInactive | kPitchInactive | kYawInactive;
 inline constexpr std::uint16_t kThrottleOverrides = kThrottleSwitch | kMinimumThrottle | kThrottleInactive;

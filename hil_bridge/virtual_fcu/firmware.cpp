@@ -110,14 +110,13 @@ void Firmware::stream(const Board& board) {
     stream_slow_sensors(board);
   }
   if (telemetry_.heartbeat_due()) {
-    constexpr std::uint8_t kDialectVersion = 2;
     const bool wing = parameters_.on(parameter("FIXED_WING"));
     telemetry_.send(rosflight::Heartbeat{.custom_mode = 0,
                                          .type = static_cast<std::uint8_t>(wing ? 1 : 2),
                                          .autopilot = 0,
                                          .base_mode = 0,
                                          .system_status = 0,
-                                         .mavlink_version = kDialectVersion});
+                                         .mavlink_version = rosflight::kDialectVersion});
   }
   if (telemetry_.status_due()) send_status();
   telemetry_.continue_parameter_list(parameters_);

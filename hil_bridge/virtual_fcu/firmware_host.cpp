@@ -14,7 +14,6 @@ namespace {
 constexpr std::int64_t kNanoseconds = 1'000'000'000;
 constexpr std::int64_t kUnixStart =
     1'767'225'600;  // s, Unix time at the start of a run: 2026-01-01 00:00 UTC
-constexpr std::uint8_t kCalibrateImu = 1;
 constexpr std::size_t kRoomForMessages = 1024;
 
 void check_whole_ticks(const char* key, Time value, Time tick) {
@@ -88,7 +87,7 @@ FirmwareHost::FirmwareHost(const VirtualFcuConfig& config)
   uplink_arrivals_.reserve(kRoomForMessages);
   downlink_.reserve(kRoomForMessages);
   board_.sent = &downlink_;
-  if (config.calibrate_imu_at_start) send(rosflight::RosflightCmd{.command = kCalibrateImu});
+  if (config.calibrate_imu_at_start) send(rosflight::RosflightCmd{.command = rosflight::kCalibrateImu});
 }
 
 void FirmwareHost::tick(const simulator::Readings& readings, Time now) {

@@ -11,21 +11,6 @@ namespace {
 
 constexpr std::string_view kVersion = "v2.0.1-ironbird";
 
-/// The numbers of ROSFLIGHT_CMD.
-enum class Order : std::uint8_t {
-  kTrim = 0,
-  kCalibrateImu = 1,
-  kCalibrateGyro = 2,
-  kCalibrateBaro = 3,
-  kCalibrateAirspeed = 4,
-  kReadParameters = 5,
-  kWriteParameters = 6,
-  kDefaultParameters = 7,
-  kReboot = 8,
-  kRebootToBootloader = 9,
-  kSendVersion = 10
-};
-
 }  // namespace
 
 void Firmware::send_imu_and_attitude() {
@@ -127,7 +112,7 @@ void Firmware::handle(const rosflight::Message& message) {
 void Firmware::on(const rosflight::ParamRequestRead& request) {
   if (request.target_system != parameters_.integer(parameter("SYS_ID"))) return;
   const ParameterId id = request.param_index < 0
-                             ? find_parameter(name_of(request.param_id))
+                             ? find_parameter(rosflight::text_of(request.param_id))
                              : ParameterId{static_cast<std::uint16_t>(request.param_index)};
   if (id.index < kParameterCount) telemetry_.send_parameter(parameters_, id);
 }
@@ -138,7 +123,7 @@ void Firmware::on(const rosflight::ParamRequestList& request) {
 
 void Firmware::on(const rosflight::ParamSet& request) {
   if (request.target_system != parameters_.integer(parameter("SYS_ID"))) return;
-  const ParameterId id = find_parameter(name_of(request.param_id));
+  const ParameterId id = find_parameter(rosflight::text_of(request.param_id));
   if (id.index == kParameterCount) return;
   if (static_cast<std::uint8_t>(kParameterTable[id.index].type) != request.param_type) return;
   parameters_.set_bits(id, request.param_value.bits);
@@ -159,37 +144,37 @@ void Firmware::on(const rosflight::RosflightCmd& request) {
 }
 
 bool Firmware::run_command(std::uint8_t command) {
-  switch (static_cast<Order>(command)) {
-    case Order::kTrim:
+  switch (command) {
+    case rosflight::kCalibrateRc:
       calibrate_trim();
       return true;
-    case Order::kCalibrateImu:
+    case rosflight::kCalibrateImu:
       start_imu_calibration();
       return true;
-    case Order::kCalibrateGyro:
+    case rosflight::kCalibrateGyro:
       start_gyro_calibration();
       return true;
-    case Order::kCalibrateBaro:
+    case rosflight::kCalibrateBaro:
       baro_calibration_.start();
       return true;
-    case Order::kCalibrateAirspeed:
+    case rosflight::kCalibrateAirspeed:
       airspeed_calibration_.start();
       return true;
-    case Order::kReadParameters:
+    case rosflight::kReadParameters:
       parameters_.load();
       configure_parts();
       return true;
-    case Order::kWriteParameters:
+    case rosflight::kWriteParameters:
       parameters_.save();
       return true;
-    case Order::kDefaultParameters:
+    case rosflight::kDefaultParameters:
       parameters_.set_defaults();
       configure_parts();
       return true;
-    case Order::kReboot:
-    case Order::kRebootToBootloader:
+    case rosflight::kReboot:
+    case rosflight::kRebootToBootloader:
       return true;
-    case Order::kSendVersion: {
+    case rosflight::kSendVersion: {
       rosflight::RosflightVersion message{};
       std::copy(kVersion.begin(), kVersion.end(), message.version.begin());
       telemetry_.send(message);

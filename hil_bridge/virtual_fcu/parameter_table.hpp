@@ -7,10 +7,12 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "hil_bridge/rosflight/vocabulary.hpp"
+
 namespace ironbird::hil_bridge::virtual_fcu {
 
-/// The two kinds of parameter; the values are those of the wire.
-enum class ParameterType : std::uint8_t { kInteger = 6, kReal = 9 };
+using rosflight::kParameterCount;
+using rosflight::ParameterType;
 
 /// A parameter's place in the table, which is also its index on the wire.
 struct ParameterId {
@@ -19,7 +21,6 @@ struct ParameterId {
   constexpr ParameterId operator+(int steps) const { return {static_cast<std::uint16_t>(index + steps)}; }
 };
 
-inline constexpr int kParameterCount = 333;
 inline constexpr int kMixerInputs = 10;   ///< forces, torques and four free inputs
 inline constexpr int kMixerOutputs = 10;  ///< outputs that the mixer can drive
 inline constexpr std::size_t kNameLength = 16;
@@ -36,37 +37,34 @@ struct ParameterInfo {
   double upper = std::numeric_limits<float>::max();
 };
 
-/// The name as text.
-constexpr std::string_view name_of(const std::array<char, kNameLength>& name) {
-  std::size_t length = 0;
-  while (length < kNameLength && name[length] != '\0') ++length;
-  return {name.data(), length};
-}
-
 namespace detail {
-
-constexpr std::array<char, kNameLength> padded(std::string_view text) {
-  std::array<char, kNameLength> name{};
-  for (std::size_t k = 0; k < text.size(); ++k) name[k] = text[k];
-  return name;
-}
 
 constexpr ParameterInfo integer(std::string_view name, std::int32_t value, const char* unit,
                                 const char* meaning, double lower = std::numeric_limits<std::int32_t>::min(),
                                 double upper = std::numeric_limits<std::int32_t>::max()) {
-  return {padded(name), ParameterType::kInteger, std::bit_cast<std::uint32_t>(value), unit, meaning, lower,
+  return {rosflight::field_of<kNameLength>(name),
+          ParameterType::kInteger,
+          std::bit_cast<std::uint32_t>(value),
+          unit,
+          meaning,
+          lower,
           upper};
 }
 
 constexpr ParameterInfo real(std::string_view name, float value, const char* unit, const char* meaning,
                              double lower = ParameterInfo{}.lower, double upper = ParameterInfo{}.upper) {
-  return {padded(name), ParameterType::kReal, std::bit_cast<std::uint32_t>(value), unit, meaning, lower,
+  return {rosflight::field_of<kNameLength>(name),
+          ParameterType::kReal,
+          std::bit_cast<std::uint32_t>(value),
+          unit,
+          meaning,
+          lower,
           upper};
 }
 
 /// "PRI_MIXER_OUT_" and a digit, and the like.
 constexpr std::array<char, kNameLength> numbered(std::string_view stem, int number) {
-  std::array<char, kNameLength> name = padded(stem);
+  std::array<char, kNameLength> name = rosflight::field_of<kNameLength>(stem);
   name[stem.size()] = static_cast<char>('0' + number);
   return name;
 }
@@ -236,7 +234,7 @@ inline constexpr std::array<ParameterInfo, kParameterCount> kParameterTable = de
 /// The place of a name, or kParameterCount.
 constexpr ParameterId find_parameter(std::string_view name) {
   for (std::uint16_t k = 0; k < kParameterCount; ++k) {
-    if (name_of(kParameterTable[k].name) == name) return {k};
+    if (rosflight::text_of(kParameterTable[k].name) == name) return {k};
   }
   return {kParameterCount};
 }

@@ -3,9 +3,6 @@
 #include <array>
 #include <bit>
 #include <span>
-#include <string_view>
-
-#include "hil_bridge/virtual_fcu/parameter_table.hpp"
 
 namespace ironbird::hil_bridge {
 
@@ -13,8 +10,7 @@ namespace {
 
 constexpr std::uint8_t kFirmware = 250;
 constexpr std::uint8_t kParameterComponent = 0;  // hard-coded in the firmware
-constexpr std::uint8_t kLastCommand = 12;
-constexpr std::size_t kQueueRoom = 256 * 50;  // bytes: a board's queue of 256 packets, of the usual length
+constexpr std::size_t kQueueRoom = 256 * 50;     // bytes: a board's queue of 256 packets, of the usual length
 
 }  // namespace
 
@@ -42,7 +38,7 @@ void ServedFcu::give() {
   unit_.receive(said_);
   for (const Arrival& arrival : said_) {
     if (const auto* value = std::get_if<rosflight::ParamValue>(&arrival.message)) {
-      const bool own_number = virtual_fcu::name_of(value->param_id) == std::string_view("SYS_ID");
+      const bool own_number = rosflight::text_of(value->param_id) == "SYS_ID";
       if (own_number)
         system_ = static_cast<std::uint8_t>(std::bit_cast<std::int32_t>(value->param_value.bits));
     }
@@ -66,7 +62,7 @@ rosflight::Address ServedFcu::sender_of(const Arrival& arrival) const {
   if (std::holds_alternative<rosflight::ParamValue>(arrival.message)) return {system_, kParameterComponent};
   if (arrival.odd_system) return {*arrival.odd_system, kFirmware};
   const auto* acknowledged = std::get_if<rosflight::RosflightCmdAck>(&arrival.message);
-  const bool unknown = acknowledged != nullptr && acknowledged->command > kLastCommand;
+  const bool unknown = acknowledged != nullptr && acknowledged->command > rosflight::kSendAllConfigInfos;
   return {unknown ? requester_ : system_, kFirmware};
 }
 

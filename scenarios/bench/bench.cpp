@@ -17,10 +17,6 @@ namespace {
 using autopilot::Vector3;
 
 constexpr std::chrono::nanoseconds kProgressPeriod = std::chrono::seconds(1);
-/// The pilot disarms this long after the vehicle has come to rest from a landing.
-constexpr double kDisarmDelay = 1.0;
-/// The pilot gives the vehicle to the companion this long after arming.
-constexpr double kHandOverDelay = 0.5;
 
 }  // namespace
 
@@ -107,7 +103,7 @@ void Bench::wire_probes() {
 void Bench::wire_script() {
   if (scenario_.pilot.automatic) {
     schedule("", scenario_.pilot.arm_at, {Deed::Kind::kArm, 0});
-    schedule("", scenario_.pilot.arm_at + kHandOverDelay, {Deed::Kind::kHandOver, 0});
+    schedule("", scenario_.pilot.arm_at + PilotConfig::kHandOverDelay, {Deed::Kind::kHandOver, 0});
     schedule("", scenario_.pilot.take_off_at, {Deed::Kind::kTakeOff, 0});
   }
   for (std::size_t i = 0; i < scenario_.events.size(); ++i) {
@@ -160,8 +156,7 @@ Bench::Time Bench::tick() {
 void Bench::watch(Time now) {
   if (const auto seen = ground_.observe(world_->truth())) judge_->event(now, "ground", std::string(*seen));
   for (const auto& text : lockstep_->texts()) {
-    const char* begin = text.text.data();
-    const std::string_view words(begin, strnlen(begin, text.text.size()));
+    const std::string_view words = hil_bridge::rosflight::text_of(text.text);
     if (texts_.is_news(words, now)) judge_->event(now, "fcu", std::string(words));
   }
   if (const char* failure = world_->failure()) {
@@ -179,7 +174,7 @@ void Bench::publish_events(Time now) {
     script_.happened(event.kind + ":" + event.text, now);
     const bool is_down = event.kind == "ground" && (event.text == "landed" || event.text == "crashed");
     if (scenario_.pilot.automatic && is_down) {
-      schedule("", to_seconds(now) + kDisarmDelay, {Deed::Kind::kDisarm, 0});
+      schedule("", to_seconds(now) + PilotConfig::kDisarmDelay, {Deed::Kind::kDisarm, 0});
     }
     if (recorder_) recorder_->write_once("/bench/event", event, now);
   }

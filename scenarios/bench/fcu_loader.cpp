@@ -12,8 +12,8 @@ namespace ironbird::scenarios {
 
 namespace {
 
+using hil_bridge::rosflight::text_of;
 using hil_bridge::virtual_fcu::kParameterTable;
-using hil_bridge::virtual_fcu::name_of;
 using hil_bridge::virtual_fcu::ParameterInfo;
 using hil_bridge::virtual_fcu::ParameterType;
 
@@ -21,14 +21,14 @@ constexpr const char* kPath = "fcu.parameters";
 
 const ParameterInfo* find(std::string_view name) {
   for (const ParameterInfo& info : kParameterTable) {
-    if (name_of(info.name) == name) return &info;
+    if (text_of(info.name) == name) return &info;
   }
   return nullptr;
 }
 
 std::string unknown(const std::string& name) {
   std::vector<std::string> names;
-  for (const ParameterInfo& info : kParameterTable) names.emplace_back(name_of(info.name));
+  for (const ParameterInfo& info : kParameterTable) names.emplace_back(text_of(info.name));
   const std::string nearest = nearest_name(name, names);
   return std::string(kPath) + "." + name + ": the firmware has no such parameter" +
          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");

@@ -53,6 +53,11 @@ struct StartConfig {
 
 /// What the simulated pilot and operator do by themselves at the beginning of a run.
 struct PilotConfig {
+  /// s, after arming: the pilot gives the vehicle to the companion.
+  static constexpr double kHandOverDelay = 0.5;
+  /// s, after the vehicle has come to rest from a landing: the pilot disarms.
+  static constexpr double kDisarmDelay = 1.0;
+
   bool automatic = true;
   double arm_at = 4.0;
   double take_off_at = 5.0;

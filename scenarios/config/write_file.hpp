@@ -25,7 +25,8 @@ inline std::string with_remedy(std::string message) {
   return message;
 }
 
-/// Writes a whole file. @throws UserError naming it, the reason and what helps
+/// Writes a file whole or not at all: what was there before stays until the new one is complete. @throws
+/// UserError naming it, the reason and what helps
 void write_file(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace ironbird::scenarios

@@ -25,9 +25,8 @@ int info(const InfoArguments& arguments) {
   unit.meet();
   unit.until(kListening, [] { return false; });
   if (interrupt_requested()) return kExitInterrupted;
-  const std::string where = arguments.address.udp.empty() ? arguments.address.port : arguments.address.udp;
   const auto report = arguments.json ? unit_report_json : unit_report;
-  std::fputs(report(unit.fcu(), where, unit.now()).c_str(), stdout);
+  std::fputs(report(unit.fcu(), unit.name(), unit.now()).c_str(), stdout);
   return kExitPass;
 }
 

@@ -12,6 +12,7 @@
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/scenario_arguments.hpp"
 #include "scenarios/app/terminal.hpp"
+#include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/fcu/fcu_verb.hpp"
@@ -72,8 +73,7 @@ void sleep_until(Time when) {
 
 void tell(const ServedUnit& unit, Time lost) {
   const simulator::Truth& truth = unit.world().truth();
-  std::fprintf(stderr, "\r%8.1f s  %s  height %6.2f m  %llu kB out  %llu kB in%s",
-               1e-9 * static_cast<double>(unit.now().count()),
+  std::fprintf(stderr, "\r%8.1f s  %s  height %6.2f m  %llu kB out  %llu kB in%s", to_seconds(unit.now()),
                unit.unit().firmware().arming().armed() ? "ARMED   " : "disarmed", -truth.p_NB_N.z(),
                static_cast<unsigned long long>(unit.served().bytes_given() / 1000),
                static_cast<unsigned long long>(unit.served().bytes_taken() / 1000),
@@ -90,7 +90,7 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
   std::fprintf(stderr, "serving %s; connect with: ironbird fcu info %s; Ctrl-C ends\n",
                loaded.scenario.vehicle_folder.c_str(), line.how_to_reach.c_str());
   const bool interactive = Terminal::of_standard_error().interactive;
-  const Time end = std::chrono::duration_cast<Time>(std::chrono::duration<double>(arguments.duration));
+  const Time end = from_seconds(arguments.duration);
   Time next = clock_now();
   Time told{};
   Time lost{};
@@ -110,8 +110,7 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
   }
   if (interactive) std::fputs("\n", stderr);
   if (lost > Time::zero()) {
-    std::fprintf(stderr, "this machine was too slow: the unit's time fell %.1f s behind\n",
-                 1e-9 * static_cast<double>(lost.count()));
+    std::fprintf(stderr, "this machine was too slow: the unit's time fell %.1f s behind\n", to_seconds(lost));
     return kExitInconclusive;
   }
   return kExitPass;

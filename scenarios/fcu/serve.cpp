@@ -1,9 +1,9 @@
 #include "scenarios/fcu/serve.hpp"
 
-#include <chrono>
 #include <string_view>
 
 #include "hil_bridge/virtual_fcu/parameter_table.hpp"
+#include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/world_maker.hpp"
 
 namespace ironbird::scenarios {
@@ -13,16 +13,9 @@ namespace {
 using hil_bridge::Time;
 using hil_bridge::VirtualFcu;
 
-constexpr Time kHandOverDelay = std::chrono::milliseconds(500);  // after arming, as in a run of the bench
-constexpr Time kDisarmDelay = std::chrono::seconds(1);           // after coming to rest
-
 std::uint8_t system_of(const VirtualFcu& fcu) {
   return static_cast<std::uint8_t>(
       fcu.firmware().parameters().integer(hil_bridge::virtual_fcu::find_parameter("SYS_ID")));
-}
-
-Time from_seconds(double seconds) {
-  return std::chrono::duration_cast<Time>(std::chrono::duration<double>(seconds));
 }
 
 }  // namespace
@@ -51,11 +44,12 @@ void ServedUnit::act_as_pilot() {
     armed_ = true;
     fcu_.pilot().arm(true);
   }
-  if (!handed_over_ && present >= arm_at + kHandOverDelay) {
+  if (!handed_over_ && present >= arm_at + from_seconds(PilotConfig::kHandOverDelay)) {
     handed_over_ = true;
     fcu_.pilot().override_companion(false);
   }
-  if (down_ && now_ >= *down_ + kDisarmDelay && !ground_.airborne()) fcu_.pilot().arm(false);
+  if (down_ && now_ >= *down_ + from_seconds(PilotConfig::kDisarmDelay) && !ground_.airborne())
+    fcu_.pilot().arm(false);
 }
 
 }  // namespace ironbird::scenarios

@@ -29,8 +29,6 @@ class ServedUnit {
   const simulator::World& world() const { return *world_; }
   const hil_bridge::VirtualFcu& unit() const { return fcu_; }
   const hil_bridge::ServedFcu& served() const { return served_; }
-  /// Has anybody spoken to it?
-  bool spoken_to() const { return since_.has_value(); }
 
  private:
   void act_as_pilot();

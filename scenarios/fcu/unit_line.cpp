@@ -9,6 +9,7 @@
 #include "hil_bridge/transport/serial_port.hpp"
 #include "hil_bridge/transport/udp_socket.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/bench/run_time.hpp"
 #include "scenarios/config/config_error.hpp"
 
 namespace ironbird::scenarios {
@@ -91,8 +92,7 @@ void UnitOnLine::step() {
 }
 
 bool UnitOnLine::until(double seconds, const std::function<bool()>& done) {
-  const auto end =
-      now() + std::chrono::duration_cast<hil_bridge::Time>(std::chrono::duration<double>(seconds));
+  const auto end = now() + from_seconds(seconds);
   for (;;) {
     step();
     if (done()) return true;

@@ -43,6 +43,7 @@ class UnitOnLine {
   hil_bridge::SerialFcu& fcu() { return fcu_; }
   hil_bridge::Connection& connection() { return fcu_.connection(); }
   hil_bridge::Time now() const;
+  std::string name() const { return line_->name(); }
   double patience() const { return address_.patience; }
   hil_bridge::LinkHealth health() const { return fcu_.health(now()); }
 

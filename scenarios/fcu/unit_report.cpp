@@ -41,29 +41,32 @@ std::string fact(const char* name, const std::string& value) {
 }  // namespace
 
 std::string error_names(std::uint8_t code) {
-  constexpr std::array<std::pair<unsigned, const char*>, 8> kNames = {{{0x01, "invalid mixer"},
-                                                                       {0x02, "IMU not responding"},
-                                                                       {0x04, "radio lost"},
-                                                                       {0x08, "unhealthy estimator"},
-                                                                       {0x10, "time going backwards"},
-                                                                       {0x20, "uncalibrated IMU"},
-                                                                       {0x40, "buffer overrun"},
-                                                                       {0x80, "invalid failsafe throttle"}}};
+  using enum hil_bridge::rosflight::ErrorBit;
+  constexpr std::array<std::pair<unsigned, const char*>, 8> kNames = {
+      {{kInvalidMixer, "invalid mixer"},
+       {kImuNotResponding, "IMU not responding"},
+       {kErrorRcLost, "radio lost"},
+       {kUnhealthyEstimator, "unhealthy estimator"},
+       {kTimeGoingBackwards, "time going backwards"},
+       {kUncalibratedImu, "uncalibrated IMU"},
+       {kBufferOverrun, "buffer overrun"},
+       {kInvalidFailsafe, "invalid failsafe throttle"}}};
   return names_of(code, kNames, "none");
 }
 
 std::string override_names(std::uint16_t bits) {
+  using enum hil_bridge::rosflight::OverrideBit;
   constexpr std::array<std::pair<unsigned, const char*>, 10> kNames = {
-      {{0x001, "attitude switch"},
-       {0x002, "throttle switch"},
-       {0x004, "roll stick"},
-       {0x008, "pitch stick"},
-       {0x010, "yaw stick"},
-       {0x020, "throttle stick below the companion"},
-       {0x040, "no roll from the companion"},
-       {0x080, "no pitch from the companion"},
-       {0x100, "no yaw from the companion"},
-       {0x200, "no throttle from the companion"}}};
+      {{kAttitudeSwitch, "attitude switch"},
+       {kThrottleSwitch, "throttle switch"},
+       {kRollStick, "roll stick"},
+       {kPitchStick, "pitch stick"},
+       {kYawStick, "yaw stick"},
+       {kMinimumThrottle, "throttle stick below the companion"},
+       {kRollInactive, "no roll from the companion"},
+       {kPitchInactive, "no pitch from the companion"},
+       {kYawInactive, "no yaw from the companion"},
+       {kThrottleInactive, "no throttle from the companion"}}};
   return names_of(bits, kNames, "the companion has all");
 }
 

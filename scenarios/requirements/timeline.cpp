@@ -82,8 +82,8 @@ void EventDetector::report(const Seen& fresh, double time, Timeline& timeline) {
   }
   if (fresh.health != seen_.health) timeline.add(time, "health", name_of(fresh.health));
   if (fresh.doubtful != seen_.doubtful) timeline.add(time, "position", fresh.doubtful ? "doubtful" : "sure");
-  if (fresh.position_resets > seen_.position_resets) {
-    timeline.add(time, "position_reset", with_unit(signals_.estimate.position_reset_N.norm(), "m"));
+  if (const double jump = (fresh.position_reset_sum_N - seen_.position_reset_sum_N).norm(); jump > 0.0) {
+    timeline.add(time, "position_reset", with_unit(jump, "m"));
   }
   seen_ = fresh;
 }

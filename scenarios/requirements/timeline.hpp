@@ -94,7 +94,7 @@ class EventDetector {
     bool armed = false;
     autopilot::Health health = autopilot::Health::kUninitialised;
     bool doubtful = false;
-    std::uint32_t position_resets = 0;
+    autopilot::Vector3 position_reset_sum_N = autopilot::Vector3::Zero();
     bool operator==(const Seen&) const = default;
   };
 
@@ -111,7 +111,7 @@ class EventDetector {
             signals_.flight.fcu.armed,
             signals_.estimate.health,
             signals_.estimate.position_doubtful,
-            signals_.estimate.position_resets};
+            signals_.estimate.position_reset_sum_N};
   }
   autopilot::Health settled(autopilot::Health health, double time);
   void report(const Seen& fresh, double time, Timeline& timeline);

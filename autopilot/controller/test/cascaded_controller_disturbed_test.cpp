@@ -149,9 +149,12 @@ TEST_F(CascadedControllerTest, DoesNotChaseAPositionThatJumps) {
   run(NoSetpoint{});
   ASSERT_EQ(controller_.phase(), kHold);
   const auto calm = std::get<PassThroughCommand>(run(NoSetpoint{}));
-  estimate_.p_NB_N.x() += 300.0;
-  estimate_.position_reset_N.x() = 300.0;
-  ++estimate_.position_resets;
+  // WHEN it jumps twice before the next step
+  for (const double jump : {310.0, -10.0}) {
+    estimate_.p_NB_N.x() += jump;
+    estimate_.position_reset_sum_N.x() += jump;
+    ++estimate_.position_resets;
+  }
   const auto after = std::get<PassThroughCommand>(run(NoSetpoint{}));
   EXPECT_LT((after.M_B - calm.M_B).norm(), 1e-9);
 }

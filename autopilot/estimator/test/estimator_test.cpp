@@ -64,7 +64,7 @@ TEST(EstimatorTest, CountsJumpsOfThePositionAndSaysHowFar) {
   EXPECT_EQ(listener.run(frame_at(110)).position_resets, 1U);
   const StateEstimate& last = listener.run(frame_at(115));
   EXPECT_EQ(last.position_resets, 1U);
-  EXPECT_NEAR(last.position_reset_N.x(), 12.1, kRoundOff);
+  EXPECT_NEAR(last.position_reset_sum_N.x(), 12.1, kRoundOff);
 }
 
 TEST(EstimatorTest, CountsTheJumpFromTheEstimateOfItsPredecessor) {
@@ -77,7 +77,7 @@ TEST(EstimatorTest, CountsTheJumpFromTheEstimateOfItsPredecessor) {
   listener.take_over(signals);
   const StateEstimate& first = listener.run(frame_at(100));
   EXPECT_EQ(first.position_resets, 5U);
-  EXPECT_NEAR(first.position_reset_N.x(), -29.0, kRoundOff);
+  EXPECT_NEAR(first.position_reset_sum_N.x(), -29.0, kRoundOff);
 }
 
 TEST(EstimatorTest, TakesTheTurnToDieAwayWhileTheImuSendsNoNumbers) {

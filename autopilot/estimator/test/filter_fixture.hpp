@@ -60,6 +60,28 @@ class FilterTest : public ::testing::TestWithParam<Kind> {
   double speed_error() const { return (x.v_NB_N() - sensors.truth().v_N).norm(); }
   double angle_error() const { return x.q_NB.angularDistance(Quaternion(sensors.truth().R_NB)); }
 
+  /// Who is armed is in flight, as far as a filter can know.
+  static SensorFrame armed(SensorFrame frame) {
+    frame.status = FcuStatus{};
+    frame.status->armed = true;
+    return frame;
+  }
+  /// Until the estimate is good, and then in flight.
+  void fly_armed() {
+    fly(40.0);
+    step(armed(sensors.next()));
+  }
+  /// For so long that what fixes insist on is decided, s: more than the default of gnss.persistence.
+  static constexpr double kPersistence = 3.5;
+  /// No fixes for a while, s, and then ones that lie so far north, m, until it is decided who is right.
+  void jump_after_pause(double pause, double north) {
+    sensors.gnss_on = false;
+    fly(pause);
+    sensors.gnss_on = true;
+    sensors.gnss_jump = {north, 0.0, 0.0};
+    fly(kPersistence);
+  }
+
   void expect_good() const {
     EXPECT_EQ(x.health, Health::kGood);
     EXPECT_LT(position_error(), kGoodPosition);

@@ -196,7 +196,6 @@ TEST(ReferenceTest, MovesAlongWithEveryJumpSinceItsLastStep) {
   // WHEN the position jumps twice before the manager's next step
   for (const Vector3& jump_N : {Vector3(0.0, 30.0, 0.0), Vector3(0.0, -5.0, 0.0)}) {
     flight.estimate.p_NB_N += jump_N;
-    flight.estimate.position_reset_N = jump_N;
     flight.estimate.position_reset_sum_N += jump_N;
     ++flight.estimate.position_resets;
   }

@@ -354,9 +354,9 @@ TEST_F(EscNodeTest, IsRefusedWithParametersOutOfBounds) {
       return problem.what();
     }
   };
-  EXPECT_EQ(reason({.node = 128}), "esc_node.node = 128, must be 0 to 127");
-  EXPECT_EQ(reason({.esc_index = 20}), "esc_node.esc_index = 20, must be 0 to 19");
-  EXPECT_EQ(reason({.status_rate = 100}), "esc_node.status_rate = 100 Hz, must be 10 to 50");
+  EXPECT_EQ(reason({.node = 128}), "esc_node.node = 128, must be between 0 and 127");
+  EXPECT_EQ(reason({.esc_index = 20}), "esc_node.esc_index = 20, must be between 0 and 19");
+  EXPECT_EQ(reason({.status_rate = 100}), "esc_node.status_rate = 100 Hz, must be between 10 and 50");
   EXPECT_EQ(reason({.command_timeout = NAN}).substr(0, 25), "esc_node.command_timeout ");
 }
 

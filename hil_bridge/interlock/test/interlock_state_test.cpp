@@ -6,17 +6,14 @@
 #include <set>
 #include <string>
 
+#include "hil_bridge/interlock/test/interlock_inputs.hpp"
+
 namespace ironbird::hil_bridge {
 namespace {
 
 using enum InterlockState;
-
-constexpr std::array<bool InterlockInputs::*, 14> kSwitches = {
-    &InterlockInputs::link_alive,     &InterlockInputs::unit_known,     &InterlockInputs::unit_disarmed,
-    &InterlockInputs::unit_armed,     &InterlockInputs::unit_faultless, &InterlockInputs::parameters_equal,
-    &InterlockInputs::sensors_flow,   &InterlockInputs::radio_present,  &InterlockInputs::estimate_usable,
-    &InterlockInputs::commands_sound, &InterlockInputs::bench_in_time,  &InterlockInputs::release_wanted,
-    &InterlockInputs::reset_wanted,   &InterlockInputs::kill_wanted};
+using test::kSwitches;
+using test::sound;
 
 InterlockInputs inputs_of(unsigned bits) {
   InterlockInputs in;
@@ -27,14 +24,6 @@ InterlockInputs inputs_of(unsigned bits) {
 InterlockState after(InterlockState state, const InterlockInputs& in) {
   const InterlockRow* const row = deciding_row(state, in);
   return row == nullptr ? state : row->to;
-}
-
-/// Everything as it should be before a flight.
-InterlockInputs sound() {
-  InterlockInputs in;
-  in.link_alive = in.unit_known = in.unit_disarmed = in.unit_faultless = in.parameters_equal = true;
-  in.sensors_flow = in.radio_present = in.estimate_usable = true;
-  return in;
 }
 
 /// For every state and every combination of inputs.

@@ -112,5 +112,15 @@ TEST(DialectTest, FindsMessagesByNumber) {
   EXPECT_EQ(find_message(255), nullptr);
 }
 
+TEST(VocabularyTest, ReadsAndWritesFieldsThatAreFullAndFieldsThatAreNot) {
+  constexpr std::array<char, 16> kFull = field_of<16>("MOTOR_RESISTANCE");
+  static_assert(text_of(kFull) == "MOTOR_RESISTANCE");
+  constexpr std::array<char, 16> kShort = field_of<16>("SYS_ID");
+  static_assert(text_of(kShort) == "SYS_ID");
+  constexpr std::array<char, 4> kCut = field_of<4>("SYS_ID");
+  EXPECT_EQ(text_of(kCut), "SYS_");
+  EXPECT_EQ(kShort.back(), '\0');
+}
+
 }  // namespace
 }  // namespace ironbird::hil_bridge::rosflight

@@ -22,13 +22,6 @@ using test::hex;
 using test::kCompanion;
 using test::kFirmware;
 
-template <std::size_t N>
-std::array<char, N> field(std::string_view text) {
-  std::array<char, N> letters{};
-  std::copy(text.begin(), text.end(), letters.begin());
-  return letters;
-}
-
 /// A frame that the project's own generated code gave for these contents.
 struct Worked {
   const char* name;
@@ -48,14 +41,14 @@ const std::vector<Worked>& worked_frames() {
        ParamSet{.param_value = {6},
                 .target_system = 1,
                 .target_component = 0,
-                .param_id = field<16>("NUM_MOTORS"),
+                .param_id = field_of<16>("NUM_MOTORS"),
                 .param_type = 6},
        3, kCompanion, "fe17030132170600000001004e554d5f4d4f544f5253000000000000069a5c"},
       {"real set",
        ParamSet{.param_value = {std::bit_cast<std::uint32_t>(0.9F)},
                 .target_system = 1,
                 .target_component = 0,
-                .param_id = field<16>("RC_MAX_THR"),
+                .param_id = field_of<16>("RC_MAX_THR"),
                 .param_type = 9},
        4, kCompanion, "fe17040132176666663f010052435f4d41585f5448520000000000000949b6"},
       {"pass-through", OffboardControl{.u = {0, 0, -34.335F, 0.1F, -0.2F, 0.05F}, .ignore = 0, .mode = 0}, 5,
@@ -69,7 +62,7 @@ const std::vector<Worked>& worked_frames() {
       {"status", RosflightStatus{.rc_override = 0x020, .loop_time_us = 85, .armed = 1, .offboard = 1}, 8,
        kFirmware, "fe0b0801fabf20000000550001000100005777"},
       {"parameter",
-       ParamValue{{4}, 333, 2, field<16>("NUM_MOTORS"), 6},
+       ParamValue{{4}, 333, 2, field_of<16>("NUM_MOTORS"), 6},
        9,
        {1, 0},
        "fe1909010016040000004d0102004e554d5f4d4f544f525300000000000006b81a"},

@@ -39,7 +39,7 @@ TEST(ConnectionTest, RefusesAUnitWithAnotherNumberOfParameters) {
   Connection connection;
   connection.begin(Time{});
   connection.take(version("v2.0.0-beta"), milliseconds(1));
-  connection.take(rosflight::ParamValue{{1}, 251, 0, parameter_field("A"), 6}, milliseconds(2));
+  connection.take(rosflight::ParamValue{{1}, 251, 0, rosflight::field_of<16>("A"), 6}, milliseconds(2));
   EXPECT_EQ(connection.state(), ConnectionState::kRefused);
   EXPECT_EQ(
       connection.refusal(),

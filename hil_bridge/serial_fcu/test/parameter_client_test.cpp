@@ -26,7 +26,7 @@ int exact(DeskLink& link) {
   const auto known = link.fcu().connection().parameters().known();
   int count = 0;
   for (std::size_t k = 0; k < known.size() && k < kParameterTable.size(); ++k) {
-    const bool same = known[k].name == virtual_fcu::name_of(kParameterTable[k].name) &&
+    const bool same = known[k].name == rosflight::text_of(kParameterTable[k].name) &&
                       known[k].type == static_cast<std::uint8_t>(kParameterTable[k].type) &&
                       known[k].bits == link.firmware().parameters().bits({static_cast<std::uint16_t>(k)});
     count += same ? 1 : 0;
@@ -123,7 +123,9 @@ TEST(ParameterClientTest, GivesUpASetThatTheUnitDoesNotKeep) {
   // GIVEN a unit that says an old value whatever is set
   ParameterClient client;
   Time now{};
-  const auto answer = [&] { client.take(rosflight::ParamValue{{1}, 1, 0, parameter_field("A"), 6}, now); };
+  const auto answer = [&] {
+    client.take(rosflight::ParamValue{{1}, 1, 0, rosflight::field_of<16>("A"), 6}, now);
+  };
   client.start_download(now);
   answer();
   ASSERT_EQ(client.set({"A", 6, 2}), "");
@@ -139,7 +141,7 @@ TEST(ParameterClientTest, SaysThatASetGotNoAnswer) {
   ParameterClient client;
   Time now{};
   client.start_download(now);
-  client.take(rosflight::ParamValue{{1}, 1, 0, parameter_field("A"), 6}, now);
+  client.take(rosflight::ParamValue{{1}, 1, 0, rosflight::field_of<16>("A"), 6}, now);
   ASSERT_EQ(client.set({"A", 6, 2}), "");
   client.write_to_flash();
   for (int k = 0; k < 20'000 && !client.idle(); ++k) {
@@ -153,9 +155,9 @@ TEST(ParameterClientTest, SaysThatASetGotNoAnswer) {
 
 TEST(ParameterClientTest, PaysNoAttentionToValuesThatCannotBe) {
   ParameterClient client;
-  client.take(rosflight::ParamValue{{1}, 5, 5, parameter_field("A"), 6}, Time{});
-  client.take(rosflight::ParamValue{{1}, 60000, 5, parameter_field("A"), 6}, Time{});
-  client.take(rosflight::ParamValue{{1}, 5, 2, parameter_field("A"), 7}, Time{});
+  client.take(rosflight::ParamValue{{1}, 5, 5, rosflight::field_of<16>("A"), 6}, Time{});
+  client.take(rosflight::ParamValue{{1}, 60000, 5, rosflight::field_of<16>("A"), 6}, Time{});
+  client.take(rosflight::ParamValue{{1}, 5, 2, rosflight::field_of<16>("A"), 7}, Time{});
   EXPECT_EQ(client.progress().count, 0);
 }
 

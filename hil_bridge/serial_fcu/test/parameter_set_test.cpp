@@ -9,11 +9,6 @@
 namespace ironbird::hil_bridge {
 namespace {
 
-TEST(ParameterSetTest, WritesNamesOfSixteenLettersWithoutATerminator) {
-  EXPECT_EQ(parameter_name(parameter_field("MOTOR_RESISTANCE")), "MOTOR_RESISTANCE");
-  EXPECT_EQ(parameter_name(parameter_field("SYS_ID")), "SYS_ID");
-}
-
 TEST(ParameterSetTest, ReadsEveryValueBackToTheSameBits) {
   std::mt19937 random(1);
   for (int k = 0; k < 200'000; ++k) {

@@ -45,6 +45,8 @@ inline transport::LinkFaultConfig losing(double share) {
 class DeskLink {
  public:
   static constexpr Time kTick = std::chrono::microseconds(2500);
+  /// Bench time at which the unit's clock was zero.
+  static constexpr Time kBooted = std::chrono::milliseconds(7300);
 
   explicit DeskLink(double loss = 0.0, std::uint64_t seed = 1, const ConnectionConfig& connection = {})
       : there_(pair_.far(), losing(loss), seed),
@@ -62,7 +64,7 @@ class DeskLink {
     here_.advance(now_);
     there_.advance(now_);
     served_.take();
-    unit_.advance(now_);
+    unit_.advance(now_ - kBooted);
     served_.give();
   }
   /// Ticks until `holds`. @return the time it took, or the limit
@@ -81,7 +83,7 @@ class DeskLink {
   const virtual_fcu::Firmware& firmware() { return unit_.host().firmware(); }
 
  private:
-  Time now_{};
+  Time now_ = kBooted;
   transport::StreamPair pair_;
   DeskUnit unit_;
   transport::LinkFault there_;

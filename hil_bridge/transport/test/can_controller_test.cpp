@@ -16,6 +16,7 @@
 #include "hil_bridge/transport/can_link.hpp"
 #include "hil_bridge/transport/socket_can.hpp"
 #include "hil_bridge/transport/test/foreign_tools.hpp"
+#include "hil_bridge/transport/test/refusal.hpp"
 
 // Real drivers: two emulated PCI controllers on one bus, and a serial adapter that is played here, at the
 // other end of a pseudo-terminal. Runs under ci/with_vcan --controllers.
@@ -26,15 +27,6 @@ namespace {
 using can::frame_of;
 using can::text_of;
 using ::testing::HasSubstr;
-
-std::string refusal(const SocketCanParams& params) {
-  try {
-    SocketCan bus(params);
-    return "taken";
-  } catch (const std::invalid_argument& problem) {
-    return problem.what();
-  }
-}
 
 std::optional<ReceivedFrame> next(FrameBus& bus) {
   std::optional<ReceivedFrame> frame;

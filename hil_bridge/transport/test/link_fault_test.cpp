@@ -185,7 +185,7 @@ TEST(LinkFaultTest, RefusesProbabilitiesBeyondOne) {
     const LinkFault fault(pair.near(), {{.drop = 1.5}, {}}, 1);
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "link_fault.drop = 1.500000, must be within 0..1");
+    EXPECT_STREQ(error.what(), "link_fault.drop = 1.5, must be between 0 and 1");
   }
 }
 

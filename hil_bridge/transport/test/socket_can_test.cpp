@@ -1,4 +1,5 @@
 #include "hil_bridge/transport/socket_can.hpp"
+#include "hil_bridge/transport/test/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -212,15 +213,6 @@ TEST(SocketCanTest, TakesUpAnInterfaceThatWasUnpluggedWithItsFilters) {
     EXPECT_EQ(text_of(next(bus)->frame), "00000100#02");
   }
   EXPECT_EQ(descriptors(), before);
-}
-
-std::string refusal(const SocketCanParams& params) {
-  try {
-    SocketCan bus(params);
-    return "taken";
-  } catch (const std::invalid_argument& problem) {
-    return problem.what();
-  }
 }
 
 TEST(SocketCanTest, RefusesAnInterfaceThatIsNotThereAndTellsWhichAre) {

@@ -62,7 +62,7 @@ TEST(ParameterTableTest, HasTheListOfARealUnitInItsOrder) {
 TEST(ParameterTableTest, HasExactlySevenNamesWithoutATerminator) {
   std::set<std::string> full;
   for (const ParameterInfo& info : kParameterTable) {
-    if (name_of(info.name).size() == kNameLength) full.emplace(name_of(info.name));
+    if (rosflight::text_of(info.name).size() == kNameLength) full.emplace(rosflight::text_of(info.name));
   }
   EXPECT_EQ(full, (std::set<std::string>{"MOTOR_RESISTANCE", "PID_PITCH_RATE_P", "PID_PITCH_RATE_I",
                                          "PID_PITCH_RATE_D", "RC_MAX_PITCHRATE", "RC_ARM_THRESHOLD",
@@ -71,14 +71,14 @@ TEST(ParameterTableTest, HasExactlySevenNamesWithoutATerminator) {
 
 TEST(ParameterTableTest, CountsMixerElementsDownTheColumns) {
   EXPECT_EQ(primary_element(2, 3).index, 31 + 10 * 3 + 2);
-  EXPECT_EQ(name_of(kParameterTable[primary_element(2, 3).index].name), "PRI_MIXER_2_3");
+  EXPECT_EQ(rosflight::text_of(kParameterTable[primary_element(2, 3).index].name), "PRI_MIXER_2_3");
   EXPECT_EQ(secondary_element(9, 0).index, 131 + 9);
-  EXPECT_EQ(name_of(kParameterTable[secondary_element(9, 0).index].name), "SEC_MIXER_9_0");
+  EXPECT_EQ(rosflight::text_of(kParameterTable[secondary_element(9, 0).index].name), "SEC_MIXER_9_0");
 }
 
 TEST(ParameterTableTest, GivesEveryParameterAMeaning) {
   for (const ParameterInfo& info : kParameterTable)
-    EXPECT_NE(std::string(info.meaning), "") << name_of(info.name);
+    EXPECT_NE(std::string(info.meaning), "") << rosflight::text_of(info.name);
 }
 
 TEST(ParameterTableTest, DoesNotFindANameThatIsOnlyABeginning) {

@@ -294,7 +294,7 @@ TEST_F(JudgeTest, SaysWhatHappensToThePosition) {
   x.position_doubtful = false;
   x.position_offset_N.setZero();
   x.position_resets = 1;
-  x.position_reset_N.y() = -12.5;
+  x.position_reset_sum_N.y() = -12.5;
   judge.observe(20ms);
   x.origin.latitude += 100.0 / 6378145.0;
   judge.observe(30ms);
