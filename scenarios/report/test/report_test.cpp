@@ -217,10 +217,18 @@ TEST(JunitTest, MapsOutcomesToCases) {
 
 TEST(JunitTest, ShowsAnInvalidRunAsACaseOfItsOwn) {
   Verdict verdict = verdict_with(Outcome::kPass);
-  conclude(verdict, {"the plant diverged"});
+  conclude(verdict, {{"the plant diverged"}, {}});
   const std::string xml = junit_xml({{"a", verdict, ""}});
   EXPECT_NE(xml.find("tests=\"2\" failures=\"0\" errors=\"1\""), std::string::npos);
   EXPECT_NE(xml.find("the plant diverged"), std::string::npos);
+}
+
+TEST(JunitTest, ShowsWhatTheScenarioSaysAndDidNotHappenAsAnError) {
+  Verdict verdict = verdict_with(Outcome::kPass);
+  conclude(verdict, {{}, {"event \"gust\" never came"}});
+  const std::string xml = junit_xml({{"a", verdict, ""}});
+  EXPECT_NE(xml.find("tests=\"2\" failures=\"0\" errors=\"1\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("event &quot;gust&quot; never came"), std::string::npos) << xml;
 }
 
 TEST(JunitTest, ShowsARunWithoutAVerdictAsAnError) {
