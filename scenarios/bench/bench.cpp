@@ -188,7 +188,7 @@ void Bench::record_route(Time now) {
 Verdict Bench::finish(double wall_seconds) {
   if (interrupted_) broken_promises_.emplace_back("the run was interrupted");
   Verdict verdict = judge_->finish({loaded_.name, scenario_.title, scenario_.seed, loaded_.digest},
-                                   broken_promises_, wall_seconds);
+                                   {broken_promises_, gaps()}, wall_seconds);
   if (!interrupted_) verdict.warnings = warnings();
   return verdict;
 }

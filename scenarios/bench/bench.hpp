@@ -97,6 +97,7 @@ class Bench {
   void publish_events(Time now);
   void record_route(Time now);
   std::string name_of(const Deed& deed) const;
+  std::vector<std::string> gaps() const;
   std::vector<std::string> warnings() const;
   Verdict finish(double wall_seconds);
 

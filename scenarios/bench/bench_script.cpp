@@ -1,5 +1,6 @@
 // The part of the bench that carries out the scenario's script.
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,19 @@ autopilot::ParameterValue in_type_of(const autopilot::ParameterSlot* slot, doubl
   if (slot != nullptr && std::holds_alternative<int*>(slot->value))
     return static_cast<int>(std::lround(value));
   return value;
+}
+
+/// Says of the whole run that the vehicle stays on the ground.
+bool forbids_flight(const CheckConfig& check) {
+  if (!check.none_of_events || !check.after.empty() || !check.until.empty()) return false;
+  const std::string in_full = "ground:" + std::string(kLiftedOff);
+  return std::any_of(check.none_of_events->begin(), check.none_of_events->end(),
+                     [&](const std::string& name) { return name == kLiftedOff || name == in_full; });
+}
+
+std::string why_left(const Script::Left& left) {
+  if (!left.due) return " waited for \"" + left.after + "\", which never happened";
+  return " was due at " + with_unit(to_seconds(*left.due), "s") + ", after the end of the run";
 }
 
 }  // namespace
@@ -183,18 +197,34 @@ std::string Bench::name_of(const Deed& deed) const {
   }
 }
 
+/// What the scenario says and did not happen, so that its checks show nothing.
+std::vector<std::string> Bench::gaps() const {
+  std::vector<std::string> gaps;
+  const std::vector<RunEvent>& seen = judge_->events();
+  const bool flew = std::any_of(seen.begin(), seen.end(), [](const RunEvent& event) {
+    return event.kind == "ground" && event.text == kLiftedOff;
+  });
+  const auto& checks = scenario_.checks;
+  if (!flew && std::none_of(checks.begin(), checks.end(), forbids_flight)) {
+    gaps.push_back("the vehicle never left the ground; if it should not, say so: none_of_events = [\"" +
+                   std::string(kLiftedOff) + "\"]");
+  }
+  for (const Script::Left& left : script_.left()) {
+    const Deed& deed = deeds_[left.item];
+    if (deed.kind == Deed::Kind::kEvent && !scenario_.events[deed.index].optional)
+      gaps.push_back(name_of(deed) + why_left(left) + "; if it need not come, say so: optional = true");
+  }
+  return gaps;
+}
+
 std::vector<std::string> Bench::warnings() const {
   std::vector<std::string> warnings;
   for (const Script::Left& left : script_.left()) {
     const Deed& deed = deeds_[left.item];
-    const std::string name = name_of(deed);
-    if (name.empty()) continue;
-    if (!left.due) {
-      warnings.push_back(name + " waited for \"" + left.after + "\", which never happened");
-    } else if (deed.kind != Deed::Kind::kEnd) {
-      warnings.push_back(name + " was due at " + with_unit(to_seconds(*left.due), "s") +
-                         ", after the end of the run");
-    }
+    const bool is_end = deed.kind == Deed::Kind::kEnd;
+    if (deed.kind == Deed::Kind::kSnapshot)
+      warnings.push_back(name_of(deed) + why_left(left) + ": not taken");
+    if (is_end && !left.due) warnings.push_back(name_of(deed) + why_left(left));
   }
   for (const RunEvent& event : judge_->events()) {
     if (event.kind == "refused") {

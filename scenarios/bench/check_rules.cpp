@@ -34,6 +34,7 @@ class CheckRules {
     for (std::size_t i = 0; i < loaded_.scenario.checks.size(); ++i) {
       const std::string path = "check[" + std::to_string(i) + "]";
       const CheckConfig& check = loaded_.scenario.checks[i];
+      check_name(path, i);
       try {
         const Check possible(check,
                              {&still_->table, &still_->autopilot, to_seconds(loaded_.scenario.fcu.tick)});
@@ -50,9 +51,24 @@ class CheckRules {
   void check_events(const std::string& path, const CheckConfig& check) {
     check_event(path + ".after", Moment::read(check.after, "after").event);
     check_event(path + ".until", Moment::read(check.until, "until").event);
-    if (!check.order_of_events) return;
-    for (std::size_t i = 0; i < check.order_of_events->size(); ++i)
-      check_event(path + ".order_of_events[" + std::to_string(i) + "]", (*check.order_of_events)[i]);
+    check_list(path + ".order_of_events", check.order_of_events);
+    check_list(path + ".none_of_events", check.none_of_events);
+  }
+
+  void check_list(const std::string& path, const std::optional<std::vector<std::string>>& events) {
+    for (std::size_t i = 0; events && i < events->size(); ++i)
+      check_event(path + "[" + std::to_string(i) + "]", (*events)[i]);
+  }
+
+  /// Two checks that are told apart by nothing: the table, the JUnit file and the reasons go by the name.
+  void check_name(const std::string& path, std::size_t index) {
+    const std::vector<CheckConfig>& checks = loaded_.scenario.checks;
+    for (std::size_t i = 0; i < index; ++i) {
+      if (checks[index].name.empty() || checks[i].name != checks[index].name) continue;
+      findings_.push_back(path + ".name = \"" + checks[index].name + "\": check[" + std::to_string(i) +
+                          "] has this name too; must be another");
+      return;
+    }
   }
 
   /// Times that lie beyond the end of every run of the scenario.

@@ -1,6 +1,5 @@
 #include "scenarios/bench/ground_watch.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace ironbird::scenarios {
@@ -32,27 +31,31 @@ double uprightness(const simulator::Truth& truth) {
 }  // namespace
 
 std::optional<std::string_view> GroundWatch::observe(const simulator::Truth& truth) {
-  if (truth.in_contact) {
-    free_since_ = kNever;
-    if (contact_since_ == kNever) contact_since_ = truth.stamp;
-    hardest_ = std::max(hardest_, std::exchange(sink_, 0.0));
-    if (airborne_ && truth.stamp - contact_since_ >= kRest) {
-      airborne_ = false;
-      crashed_ = std::exchange(hardest_, 0.0) > kHardestLanding || uprightness(truth) < kLeastUpright;
-      return crashed_ ? "crashed" : "landed";
-    }
-  } else {
-    sink_ = truth.v_NB_N.z();
-    if (free_since_ == kNever) free_since_ = truth.stamp;
-    if (truth.stamp - free_since_ >= kChatter) contact_since_ = kNever;
-    if (!airborne_ && truth.stamp - free_since_ >= kFlight) {
-      airborne_ = true;
-      crashed_ = false;
-      hardest_ = 0.0;
-      return "lifted_off";
-    }
-  }
+  const auto said = truth.in_contact ? on_ground(truth) : off_ground(truth);
+  if (said) return said;
   return fallen_over(truth) ? std::optional<std::string_view>("crashed") : std::nullopt;
+}
+
+std::optional<std::string_view> GroundWatch::on_ground(const simulator::Truth& truth) {
+  free_since_ = kNever;
+  if (contact_since_ == kNever) contact_since_ = truth.stamp;
+  const double struck_with = std::exchange(sink_, 0.0);
+  if (!airborne_) return std::nullopt;
+  const bool strikes = struck_with > kHardestLanding;
+  if (!strikes && truth.stamp - contact_since_ < kRest) return std::nullopt;
+  airborne_ = false;
+  crashed_ = strikes || uprightness(truth) < kLeastUpright;
+  return crashed_ ? "crashed" : "landed";
+}
+
+std::optional<std::string_view> GroundWatch::off_ground(const simulator::Truth& truth) {
+  sink_ = truth.v_NB_N.z();
+  if (free_since_ == kNever) free_since_ = truth.stamp;
+  if (truth.stamp - free_since_ >= kChatter) contact_since_ = kNever;
+  if (airborne_ || truth.stamp - free_since_ < kFlight) return std::nullopt;
+  airborne_ = true;
+  crashed_ = false;
+  return "lifted_off";
 }
 
 bool GroundWatch::fallen_over(const simulator::Truth& truth) {

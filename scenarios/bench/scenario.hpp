@@ -154,6 +154,7 @@ struct EventConfig {
   std::string name;
   double at = 0.0;
   std::string after;
+  bool optional = false;
   std::optional<simulator::FaultKind> fault;
   double lasts = 0.0;
   std::optional<int> index;
@@ -176,6 +177,8 @@ struct EventConfig {
           86400.0);
     visit("after", self.after, "",
           "the event that `at` counts from, for example \"offboard\" or \"waypoint_1\"");
+    visit("optional", self.optional, "1",
+          "it need not come; without it a run that it does not come in shows nothing");
     visit("fault", self.fault, "1", "a fault begins");
     visit("lasts", self.lasts, "s", "how long the fault lasts; 0: to the end", 0.0, 86400.0);
     visit("index", self.index, "1", "of the rotor or waypoint that is meant, from 0", 0.0, 1000.0);

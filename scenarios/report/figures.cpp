@@ -14,7 +14,6 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr const char* kTruthTopic = "/truth/state";
 constexpr const char* kEstimateTopic = "/autopilot/estimate";
 constexpr const char* kTrajectory = "/autopilot/trajectory";
-constexpr const char* kFlight = "/autopilot/flight";
 constexpr const char* kOutputs = "/fcu/output_raw";
 constexpr const char* kSetpoint = "/autopilot/setpoint";
 
@@ -56,6 +55,9 @@ class PanelMaker {
       missing_.emplace_back(topic);
       return;
     }
+    // A command that was never given has no place in the legend.
+    if (std::none_of(curve.value.begin(), curve.value.end(), [](double v) { return std::isfinite(v); }))
+      return;
     panel_.series.push_back(
         {std::move(name), std::move(style), std::move(curve.time), std::move(curve.value)});
   }
@@ -79,7 +81,7 @@ class PanelMaker {
     if (panel_.series.empty()) panel_.strips.clear();
     std::sort(missing_.begin(), missing_.end());
     missing_.erase(std::unique(missing_.begin(), missing_.end()), missing_.end());
-    panel_.missing = "not in the log:";
+    panel_.missing = missing_.empty() ? "it was never known" : "not in the log:";
     for (const std::string& topic : missing_) panel_.missing += " " + topic;
     if (!empty_.empty()) panel_.missing = empty_;
     return std::move(panel_);
@@ -96,9 +98,9 @@ plot::Panel axis_panel(const std::vector<ReportRun>& runs, const char* title, co
   PanelMaker maker(runs, title, "m", 0.5);
   const std::string suffix(axis);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    maker.add(Role::kCommand, i, curve_of(runs[i], kTrajectory, "p_N" + suffix), kTrajectory);
+    maker.add(Role::kCommand, i, command_of(runs[i], kTrajectory, "p_N" + suffix), kTrajectory);
     maker.add(Role::kTruth, i, curve_of(runs[i], kTruthTopic, "p_NB_N" + suffix), kTruthTopic);
-    maker.add(Role::kEstimate, i, curve_of(runs[i], kEstimateTopic, "p_NB_N" + suffix), kEstimateTopic);
+    maker.add(Role::kEstimate, i, estimate_of(runs[i], "p_NB_N" + suffix), kEstimateTopic);
   }
   return std::move(maker).done();
 }
@@ -110,28 +112,13 @@ Curve degrees(const Curve& curve) {
 plot::Panel heading_panel(const std::vector<ReportRun>& runs) {
   PanelMaker maker(runs, "heading", "deg", 4.0);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    maker.add(Role::kCommand, i, broken_at_wraps(degrees(curve_of(runs[i], kTrajectory, "heading"))),
+    maker.add(Role::kCommand, i, broken_at_wraps(degrees(command_of(runs[i], kTrajectory, "heading"))),
               kTrajectory);
     maker.add(Role::kTruth, i, broken_at_wraps(degrees(angles_of(runs[i], kTruthTopic, "q_NB")[2])),
               kTruthTopic);
-    maker.add(Role::kEstimate, i, broken_at_wraps(degrees(curve_of(runs[i], kEstimateTopic, "heading"))),
-              kEstimateTopic);
+    maker.add(Role::kEstimate, i, broken_at_wraps(degrees(estimate_of(runs[i], "heading"))), kEstimateTopic);
   }
   return std::move(maker).done();
-}
-
-/// The setpoint of an angle from whichever entry point of the controller is in use.
-Curve setpoint_angle(const ReportRun& run, const std::string& angle) {
-  const LogTopic* topic = run.log().topic(kSetpoint);
-  if (topic == nullptr) return {};
-  for (const std::string& field : topic->fields()) {
-    if (!field.ends_with("." + angle)) continue;
-    const std::vector<double>& column = topic->column(field);
-    const bool used =
-        std::any_of(column.begin(), column.end(), [](double v) { return std::isfinite(v) && v != 0.0; });
-    if (used) return {topic->time(), column};
-  }
-  return {};
 }
 
 plot::Panel tilt_panel(const std::vector<ReportRun>& runs, const char* name, std::size_t axis) {
@@ -139,14 +126,16 @@ plot::Panel tilt_panel(const std::vector<ReportRun>& runs, const char* name, std
   for (std::size_t i = 0; i < runs.size(); ++i) {
     maker.add(Role::kCommand, i, degrees(setpoint_angle(runs[i], name)), kSetpoint);
     maker.add(Role::kTruth, i, degrees(angles_of(runs[i], kTruthTopic, "q_NB")[axis]), kTruthTopic);
-    maker.add(Role::kEstimate, i, degrees(curve_of(runs[i], kEstimateTopic, name)), kEstimateTopic);
+    maker.add(Role::kEstimate, i, degrees(estimate_of(runs[i], name)), kEstimateTopic);
   }
   return std::move(maker).done();
 }
 
-Curve length_of(const ReportRun& run, std::string_view topic, const std::string& field) {
-  Curve out = curve_of(run, topic, field + ".x");
-  const Curve y = curve_of(run, topic, field + ".y"), z = curve_of(run, topic, field + ".z");
+/// The length of a vector. @param axis  gives the curve of each of its axes
+template <class AxisOf>
+Curve length_of(const AxisOf& axis) {
+  Curve out = axis(".x");
+  const Curve y = axis(".y"), z = axis(".z");
   if (y.value.size() != out.value.size() || z.value.size() != out.value.size()) return {};
   for (std::size_t i = 0; i < out.value.size(); ++i) {
     out.value[i] = std::sqrt(out.value[i] * out.value[i] + y.value[i] * y.value[i] + z.value[i] * z.value[i]);
@@ -157,9 +146,13 @@ Curve length_of(const ReportRun& run, std::string_view topic, const std::string&
 plot::Panel speed_panel(const std::vector<ReportRun>& runs) {
   PanelMaker maker(runs, "speed", "m/s", 0.5);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    maker.add(Role::kCommand, i, length_of(runs[i], kTrajectory, "v_N"), kTrajectory);
-    maker.add(Role::kTruth, i, length_of(runs[i], kTruthTopic, "v_NB_N"), kTruthTopic);
-    maker.add(Role::kEstimate, i, length_of(runs[i], kEstimateTopic, "v_NB_B"), kEstimateTopic);
+    const ReportRun& run = runs[i];
+    const auto command = [&](const std::string& axis) { return command_of(run, kTrajectory, "v_N" + axis); };
+    const auto truth = [&](const std::string& axis) { return curve_of(run, kTruthTopic, "v_NB_N" + axis); };
+    const auto estimate = [&](const std::string& axis) { return estimate_of(run, "v_NB_B" + axis); };
+    maker.add(Role::kCommand, i, length_of(command), kTrajectory);
+    maker.add(Role::kTruth, i, length_of(truth), kTruthTopic);
+    maker.add(Role::kEstimate, i, length_of(estimate), kEstimateTopic);
   }
   return std::move(maker).done();
 }
@@ -178,7 +171,7 @@ plot::TimeStack error_stack(const std::vector<ReportRun>& runs, const char* titl
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     PanelMaker maker(runs, axes[axis].title, unit, least_span);
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      maker.add_bound(i, scaled(curve_of(runs[i], kEstimateTopic, axes[axis].sigma), factor));
+      maker.add_bound(i, scaled(estimate_of(runs[i], axes[axis].sigma), factor));
       maker.add(runs.size() == 1 ? "error" : runs[i].label(), "c" + std::to_string(i % 8),
                 scaled(found[i][axis], factor), std::string(kTruthTopic) + ", " + kEstimateTopic);
     }
@@ -224,55 +217,17 @@ plot::Panel battery_panel(const std::vector<ReportRun>& runs, const char* title,
 }
 
 plot::Track track_of(const ReportRun& run, Role role, std::size_t index, std::size_t runs) {
-  const char* topic = role == Role::kTruth ? kTruthTopic : kEstimateTopic;
   plot::Track track{label_of(role, run, runs), style_of(role, index, runs), {}};
-  const std::vector<double>& north = run.column(topic, "p_NB_N.x");
-  const std::vector<double>& east = run.column(topic, "p_NB_N.y");
-  for (std::size_t k = 0; k < std::min(north.size(), east.size()); ++k)
-    track.points.push_back({east[k], north[k]});
+  const auto axis = [&](const char* field) {
+    return role == Role::kTruth ? curve_of(run, kTruthTopic, field) : estimate_of(run, field);
+  };
+  const Curve north = axis("p_NB_N.x"), east = axis("p_NB_N.y");
+  for (std::size_t k = 0; k < std::min(north.value.size(), east.value.size()); ++k)
+    track.points.push_back({east.value[k], north.value[k]});
   return track;
 }
 
-/// The phases of the first run that has any.
-std::vector<plot::Stretch> phases_of(const ReportRun& run) {
-  std::vector<plot::Stretch> out;
-  const Curve phase = curve_of(run, kFlight, "phase");
-  for (std::size_t i = 0; i < phase.time.size(); ++i) {
-    const auto number = static_cast<std::size_t>(std::max(0.0, phase.value[i]));
-    const auto names = enumerators(autopilot::FlightPhase{});
-    const std::string name =
-        number < names.size() ? std::string(names[number].second) : std::to_string(number);
-    if (!out.empty()) out.back().to = phase.time[i];
-    if (out.empty() || out.back().name != name) out.push_back({phase.time[i], phase.time[i], name, name});
-  }
-  return out;
-}
-
 }  // namespace
-
-plot::TimeFrame time_frame(const std::vector<ReportRun>& runs) {
-  plot::TimeFrame frame;
-  for (const ReportRun& run : runs) {
-    for (const char* topic : {kTruthTopic, kEstimateTopic, kTrajectory, kFlight}) {
-      const std::vector<double>& time = run.time(topic);
-      if (time.empty()) continue;
-      frame.range.include(time.front());
-      frame.range.include(time.back());
-    }
-  }
-  if (runs.empty()) return frame;
-  frame.stretches = phases_of(runs.front());
-  for (const RunEvent& event : runs.front().events()) {
-    // Phases have their band; what the FCU says and pictures taken are in the table, not on every axis.
-    if (event.kind == "phase" || event.kind == "health" || event.kind == "arming") continue;
-    if (event.kind == "fcu" || event.kind == "snapshot") continue;
-    const bool is_fault = event.kind.starts_with("fault") || event.kind == "gust";
-    const std::string ending = event.kind.ends_with("_end") ? " ends" : "";
-    frame.marks.push_back(
-        {event.time, event.kind + ": " + event.text, event.text + ending, is_fault ? "fault" : ""});
-  }
-  return frame;
-}
 
 plot::Plane path_from_above(const std::vector<ReportRun>& runs) {
   plot::Plane plane{

@@ -97,41 +97,71 @@ autopilot::Route as_route(const LoggedRoute& logged) {
   return route;
 }
 
-/// Whether a moment of the log counts for the path error.
-class LegUnderWay {
+HeldColumn held(const ReportRun& run, const char* topic, const char* field) {
+  return {run.log().topic(topic), field, 0.0};
+}
+
+/// Who flew at a moment of the log.
+class WhoFlies {
  public:
-  explicit LegUnderWay(const ReportRun& run) : run_(run) {}
+  explicit WhoFlies(const ReportRun& run)
+      : phase_(held(run, kFlight, "phase")),
+        armed_(held(run, kFlight, "fcu.armed")),
+        failsafe_(held(run, kFlight, "fcu.failsafe")),
+        override_(held(run, kFlight, "fcu.rc_override")) {}
 
   /// @param time  s, not before that of the call before
-  bool at(double time, const autopilot::Route& route) {
+  autopilot::FlightStatus at(double time) {
     autopilot::FlightStatus flight;
     flight.phase = static_cast<autopilot::FlightPhase>(static_cast<int>(phase_.at(time)));
     flight.fcu.armed = armed_.at(time) == 1.0;
     flight.fcu.failsafe = failsafe_.at(time) == 1.0;
     flight.fcu.rc_override = static_cast<std::uint16_t>(override_.at(time));
+    return flight;
+  }
+
+ private:
+  HeldColumn phase_;
+  HeldColumn armed_;
+  HeldColumn failsafe_;
+  HeldColumn override_;
+};
+
+/// Whether a moment of the log counts for the path error.
+class LegUnderWay {
+ public:
+  explicit LegUnderWay(const ReportRun& run)
+      : flight_(run),
+        valid_(held(run, kTrajectory, "valid")),
+        reached_(held(run, kTrajectory, "reached")),
+        finished_(held(run, kTrajectory, "finished")),
+        landing_(held(run, kTrajectory, "landing")) {}
+
+  /// @param time  s, not before that of the call before
+  bool at(double time, const autopilot::Route& route) {
     autopilot::TrajectoryPoint trajectory;
     trajectory.valid = valid_.at(time) == 1.0;
     trajectory.reached = static_cast<std::uint32_t>(reached_.at(time));
     trajectory.finished = finished_.at(time) == 1.0;
     trajectory.landing = landing_.at(time) == 1.0;
-    return counts_for_path(flight, trajectory, route);
+    return counts_for_path(flight_.at(time), trajectory, route);
   }
 
  private:
-  HeldColumn held(const char* topic, const char* field) const {
-    return {run_.log().topic(topic), field, 0.0};
-  }
-
-  const ReportRun& run_;
-  HeldColumn phase_ = held(kFlight, "phase");
-  HeldColumn armed_ = held(kFlight, "fcu.armed");
-  HeldColumn failsafe_ = held(kFlight, "fcu.failsafe");
-  HeldColumn override_ = held(kFlight, "fcu.rc_override");
-  HeldColumn valid_ = held(kTrajectory, "valid");
-  HeldColumn reached_ = held(kTrajectory, "reached");
-  HeldColumn finished_ = held(kTrajectory, "finished");
-  HeldColumn landing_ = held(kTrajectory, "landing");
+  WhoFlies flight_;
+  HeldColumn valid_;
+  HeldColumn reached_;
+  HeldColumn finished_;
+  HeldColumn landing_;
 };
+
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+
+Curves estimates_of(const ReportRun& run, const std::string& field) {
+  Curves out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] = estimate_of(run, field + kAxes[i]);
+  return out;
+}
 
 }  // namespace
 
@@ -139,6 +169,44 @@ Curve curve_of(const ReportRun& run, std::string_view topic, std::string_view fi
   const std::vector<double>& value = run.column(topic, field);
   if (value.empty()) return {};
   return {run.time(topic), value};
+}
+
+Curve command_of(const ReportRun& run, std::string_view topic, std::string_view field) {
+  Curve out = curve_of(run, topic, field);
+  const std::vector<double>& valid = run.column(topic, "valid");
+  const bool knows_who_flies = run.log().topic(kFlight) != nullptr;
+  WhoFlies flight(run);
+  for (std::size_t i = 0; i < out.value.size(); ++i) {
+    const bool none = i < valid.size() && valid[i] == 0.0;
+    if (none || (knows_who_flies && !flight.at(out.time[i]).companion_flies())) out.value[i] = kGap;
+  }
+  return out;
+}
+
+Curve estimate_of(const ReportRun& run, std::string_view field) {
+  constexpr auto kNone = static_cast<double>(autopilot::Health::kUninitialised);
+  Curve out = curve_of(run, kEstimate, field);
+  const std::vector<double>& health = run.column(kEstimate, "health");
+  for (std::size_t i = 0; i < std::min(out.value.size(), health.size()); ++i) {
+    if (health[i] == kNone) out.value[i] = kGap;
+  }
+  return out;
+}
+
+Curve setpoint_angle(const ReportRun& run, const std::string& angle) {
+  constexpr const char* kSetpoint = "/autopilot/setpoint";
+  Curve out;
+  const LogTopic* topic = run.log().topic(kSetpoint);
+  if (topic == nullptr) return out;
+  for (const std::string& field : topic->fields()) {
+    if (!field.ends_with("." + angle)) continue;
+    const Curve here = command_of(run, kSetpoint, field);
+    if (out.empty()) out = here;
+    for (std::size_t i = 0; i < here.value.size(); ++i) {
+      if (std::isfinite(here.value[i])) out.value[i] = here.value[i];
+    }
+  }
+  return out;
 }
 
 Curves angles_of(const ReportRun& run, std::string_view topic, const std::string& field) {
@@ -164,7 +232,7 @@ Curve resampled_angle(const Curve& curve, const std::vector<double>& time) {
 }
 
 Curves position_error(const ReportRun& run) {
-  const Curves estimate = vector_of(run, kEstimate, "p_NB_N"), truth = vector_of(run, kTruth, "p_NB_N");
+  const Curves estimate = estimates_of(run, "p_NB_N"), truth = vector_of(run, kTruth, "p_NB_N");
   Curves out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = difference(estimate[i], truth[i], false);
   return out;
@@ -182,7 +250,7 @@ Curves velocity_error(const ReportRun& run) {
       for (int i = 0; i < 3; ++i) truth[static_cast<std::size_t>(i)].value.push_back(v_B[i]);
     }
   }
-  const Curves estimate = vector_of(run, kEstimate, "v_NB_B");
+  const Curves estimate = estimates_of(run, "v_NB_B");
   Curves out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = difference(estimate[i], truth[i], false);
   return out;
@@ -191,9 +259,9 @@ Curves velocity_error(const ReportRun& run) {
 Curves attitude_error(const ReportRun& run) {
   const Curves truth = angles_of(run, kTruth, "q_NB");
   Curves out;
-  out[0] = difference(curve_of(run, kEstimate, "roll"), truth[0], true);
-  out[1] = difference(curve_of(run, kEstimate, "pitch"), truth[1], true);
-  out[2] = difference(curve_of(run, kEstimate, "heading"), truth[2], true);
+  out[0] = difference(estimate_of(run, "roll"), truth[0], true);
+  out[1] = difference(estimate_of(run, "pitch"), truth[1], true);
+  out[2] = difference(estimate_of(run, "heading"), truth[2], true);
   return out;
 }
 
@@ -207,7 +275,7 @@ Curve broken_at_wraps(Curve curve) {
   for (std::size_t i = 0; i < curve.value.size(); ++i) {
     if (i > 0 && std::abs(curve.value[i] - curve.value[i - 1]) > 180.0) {
       out.time.push_back((curve.time[i] + curve.time[i - 1]) / 2.0);
-      out.value.push_back(std::numeric_limits<double>::quiet_NaN());
+      out.value.push_back(kGap);
     }
     out.time.push_back(curve.time[i]);
     out.value.push_back(curve.value[i]);
@@ -248,7 +316,7 @@ Curve path_distance(const ReportRun& run, std::string_view topic) {
     }
     if (std::exchange(interrupted, false)) {
       out.time.push_back(now);
-      out.value.push_back(std::numeric_limits<double>::quiet_NaN());
+      out.value.push_back(kGap);
     }
     out.time.push_back(now);
     out.value.push_back(to_polyline({p[0].value[k], p[1].value[k], p[2].value[k]}, route).norm());

@@ -21,6 +21,18 @@ using Curves = std::array<Curve, 3>;
 /// What the log says about a column, with its times; empty when it says nothing.
 Curve curve_of(const ReportRun& run, std::string_view topic, std::string_view field);
 
+/// What the companion was asked to do, a column of the trajectory or of the setpoint: a gap where the
+/// companion did not fly, for then nobody followed it. While it waits, the trajectory says where the vehicle
+/// is.
+Curve command_of(const ReportRun& run, std::string_view topic, std::string_view field);
+
+/// A column of the estimate: a gap before there was one.
+Curve estimate_of(const ReportRun& run, std::string_view field);
+
+/// The angle that the controller was asked for, at whichever of its entry points: a gap where it was asked
+/// for none, or not listened to.
+Curve setpoint_angle(const ReportRun& run, const std::string& angle);
+
 /// Roll, pitch, heading of the quaternions `<field>.w` …, rad.
 Curves angles_of(const ReportRun& run, std::string_view topic, const std::string& field);
 

@@ -37,9 +37,9 @@ double simulated(const Verdict& verdict) {
 std::string run_error(const JunitRun& run) {
   std::string all = run.error;
   if (!run.verdict) return all.empty() ? "there is no verdict" : all;
-  if (run.verdict->outcome != Outcome::kInvalid && !run.verdict->checks.empty()) return all;
-  for (const std::string& reason : run.verdict->reasons) all += (all.empty() ? "" : "; ") + reason;
-  return all.empty() ? "nothing was checked" : all;
+  for (const std::string& reason : reasons_of_the_run(*run.verdict))
+    all += (all.empty() ? "" : "; ") + reason;
+  return all.empty() && run.verdict->checks.empty() ? "nothing was checked" : all;
 }
 
 std::string suite_of(const JunitRun& run) {

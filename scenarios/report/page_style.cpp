@@ -52,7 +52,7 @@ a.moment { color: inherit; text-decoration: underline dotted; text-underline-off
 details { margin-top: 18px; } summary { cursor: pointer; font-weight: 600; }
 pre { background: var(--card); border: 1px solid var(--hair); border-radius: 8px; padding: 14px 18px; overflow-x: auto; font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", monospace; }
 .pair, .triple { margin-bottom: 14px; } .pair { display: grid; grid-template-columns: 480fr 780fr; gap: 12px; align-items: start; } .triple { display: grid; grid-template-columns: repeat(3, 1fr); gap: 10px; }
-figure { margin: 0; min-width: 0; } figure > svg { display: block; width: 100%; height: auto; } figcaption { font-weight: 600; margin: 0 0 4px; }
+figure { margin: 0; min-width: 0; } figure > svg, .wide > svg, .narrow > svg { display: block; width: 100%; height: auto; } .narrow { display: none; } figcaption { font-weight: 600; margin: 0 0 4px; }
 .legend { display: flex; flex-wrap: wrap; gap: 2px 16px; color: var(--soft); font-size: 13px; margin: 0 0 4px; } .legend span { display: inline-flex; align-items: center; gap: 6px; }
 .hint { color: var(--soft); font-size: 13px; margin: 0 0 8px; }
 svg { font: 12px system-ui, "Segoe UI", Roboto, "Helvetica Neue", "Noto Sans", "DejaVu Sans", sans-serif; fill: var(--ink); }
@@ -67,15 +67,20 @@ text.number, .axis-name, .unit, .missing { fill: var(--soft); } text.number { fo
 .strip { stroke: none; fill: var(--c0); fill-opacity: 0.16; } .strip.several { fill-opacity: 0.06; } .strip.c1 { fill: var(--c1); } .strip.c2 { fill: var(--c2); } .strip.c3 { fill: var(--c3); } .strip.c4 { fill: var(--c4); } .strip.c5 { fill: var(--c5); } .strip.c6 { fill: var(--c6); } .strip.c7 { fill: var(--c7); }
 .phase { fill: transparent; } .phase.offboard { fill: var(--flight); } .phase.take_off, .phase.hold { fill: var(--climb); } .phase.landing { fill: var(--descend); }
 .phase-lane { fill: var(--card); stroke: var(--hair); vector-effect: non-scaling-stroke; } .phase-lane.offboard { fill: var(--flight); } .phase-lane.take_off, .phase-lane.hold { fill: var(--climb); } .phase-lane.landing { fill: var(--descend); }
-.phase-name, .mark-name { font-size: 11px; fill: var(--soft); paint-order: stroke; stroke: var(--paper); stroke-width: 3px; stroke-linejoin: round; } .phase-name { stroke: none; } .mark-name.fault { fill: var(--fault); font-weight: 600; }
+.phase-name, .mark-name { font-size: 11px; fill: var(--soft); paint-order: stroke; stroke: var(--paper); stroke-width: 3px; stroke-linejoin: round; } .phase-name { stroke: none; } .mark-name.fault { fill: var(--fault); font-weight: 600; } .mark-name.before, .more { text-anchor: end; } .more { font-size: 11px; fill: var(--soft); }
 .mark { stroke: var(--soft); stroke-width: 1; stroke-dasharray: 2 3; opacity: 0.7; vector-effect: non-scaling-stroke; } .mark.fault { stroke: var(--fault); stroke-width: 1.6; opacity: 1; stroke-dasharray: none; }
 .place circle { fill: var(--paper); stroke: var(--ink); stroke-width: 1.4; } .place-name { font-size: 11px; font-weight: 700; }
 .cursor { stroke: var(--ink); stroke-width: 1; opacity: 0.6; pointer-events: none; } .reading { font-size: 11.5px; font-variant-numeric: tabular-nums; text-anchor: end; pointer-events: none; }
 .brush { fill: var(--c0); fill-opacity: 0.15; pointer-events: none; }
 footer { margin-top: 48px; color: var(--soft); font-size: 13px; }
-@media (max-width: 900px) { .pair, .triple, .verdict { grid-template-columns: 1fr; } main { padding: 14px; } figure { overflow-x: auto; } .time-stack { min-width: 560px; } }
-@media print { main { max-width: none; padding: 0; } section, figure { break-inside: avoid; } .legend { display: flex; flex-wrap: wrap; gap: 2px 16px; color: var(--soft); font-size: 13px; margin: 0 0 4px; } .legend span { display: inline-flex; align-items: center; gap: 6px; }
-.hint { display: none; } details { display: none; } }
+@media (max-width: 1000px) {
+  .wide { display: none; } .narrow { display: block; }
+  .pair { grid-template-columns: 1fr; } .triple { grid-template-columns: repeat(auto-fit, minmax(340px, 1fr)); }
+  .verdict { grid-template-columns: 1fr; } main { padding: 14px; } figure { overflow-x: auto; }
+  .narrow > .time-stack { min-width: 540px; } figure > svg { max-width: 580px; }
+  table { font-size: 13px; } td { overflow-wrap: anywhere; } td.number { overflow-wrap: normal; } tbody th { min-width: 7.5em; }
+}
+@media print { main { max-width: none; padding: 0; } section, figure { break-inside: avoid; } .hint { display: none; } details { display: none; } }
 )css";
 
 }  // namespace ironbird::scenarios

@@ -14,21 +14,33 @@ std::string figure(const std::string& title, const std::string& legend, const st
   return "<figure><figcaption>" + plot::escaped(title) + "</figcaption>" + legend + drawing + "</figure>";
 }
 
+/// A drawing that is too wide for a narrow page comes in two widths, of which the page shows one: shrunk, its
+/// letters could not be read.
 std::string figure(const plot::TimeStack& stack, const plot::TimeFrame& frame) {
-  return figure(stack.title, plot::legend(stack), plot::draw(stack, frame));
+  constexpr double kNarrowPage = 580.0;  // px
+  const std::string drawing = plot::draw(stack, frame);
+  if (stack.width <= kNarrowPage) return figure(stack.title, plot::legend(stack), drawing);
+  plot::TimeStack narrow = stack;
+  narrow.width = kNarrowPage;
+  return figure(stack.title, plot::legend(stack),
+                "<div class=\"wide\">" + drawing + "</div><div class=\"narrow\">" +
+                    plot::draw(narrow, frame) + "</div>");
 }
 
 std::string figures(const std::vector<ReportRun>& runs) {
   const plot::TimeFrame frame = time_frame(runs);
   plot::Plane path = path_from_above(runs);
+  const plot::TimeStack position = position_and_heading(runs);
+  constexpr double kLower = 13.0;  // px that the axis of a stack ends lower than that of a plane
   path.width = 480.0;
-  path.height = 598.0;  // as tall as the stack beside it
+  path.height = plot::height(position, frame) - kLower;  // as tall as the stack beside it
   std::string out =
       "<section id=\"figures\"><h2>Flight</h2><p class=\"hint\">Move over a figure to read all of them at "
       "one time; "
-      "drag to zoom in time, double click to see everything.</p>";
+      "drag to zoom in time, double click to see everything. A command is drawn where the companion flies: "
+      "elsewhere nobody follows it.</p>";
   out += "<div class=\"pair\">" + figure(path.title, plot::legend(path), plot::draw(path)) +
-         figure(position_and_heading(runs), frame) + "</div></section>";
+         figure(position, frame) + "</div></section>";
   out += "<section>" + figure(path_errors(runs), frame) + "</section>";
   out += "<section><h2>Estimate less truth</h2><div class=\"triple\">" +
          figure(position_errors(runs), frame) + figure(velocity_errors(runs), frame) +

@@ -93,6 +93,15 @@ std::string titled_section(const std::string& title, const ReportRun& run, bool 
   return "<section><h2>" + title + (labelled ? " of " + escaped(run.label()) : "") + "</h2>";
 }
 
+/// Why it is not a pass, and what to know although it is.
+std::string reasons_list(const Verdict& verdict) {
+  std::string items;
+  for (const std::string& reason : verdict.reasons) items += element("li", "", escaped(reason));
+  for (const std::string& warning : verdict.warnings)
+    items += element("li", "", "warning: " + escaped(warning));
+  return items.empty() ? "" : element("ul", "reasons", items);
+}
+
 std::string heading_of_run(const ReportRun& run) {
   const std::string title =
       run.verdict() && !run.verdict()->run.title.empty() ? run.verdict()->run.title : run.about("title");
@@ -112,13 +121,7 @@ std::string verdict_section(const ReportRun& run) {
   if (run.log().truncated())
     out +=
         element("p", "warning", "The log ends without its closing records: what follows is what was saved.");
-  if (judged && run.verdict()->outcome != Outcome::kPass) {
-    std::string reasons;
-    for (const std::string& reason : run.verdict()->reasons) reasons += element("li", "", escaped(reason));
-    for (const std::string& warning : run.verdict()->warnings)
-      reasons += element("li", "", "warning: " + escaped(warning));
-    out += element("ul", "reasons", reasons);
-  }
+  if (judged) out += reasons_list(*run.verdict());
   out += identity(run) + "</div></section>";
   return judged ? out + tiles(*run.verdict()) : out;
 }

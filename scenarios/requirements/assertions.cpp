@@ -19,7 +19,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Every kind with whether `config` gives it.
-std::array<std::pair<const char*, bool>, 14> kinds_in(const CheckConfig& c) {
+std::array<std::pair<const char*, bool>, 15> kinds_in(const CheckConfig& c) {
   return {{{"rms_below", c.rms_below.has_value()},
            {"stays_below", c.stays_below.has_value()},
            {"stays_above", c.stays_above.has_value()},
@@ -30,6 +30,7 @@ std::array<std::pair<const char*, bool>, 14> kinds_in(const CheckConfig& c) {
            {"stays_within_tube", c.stays_within_tube.has_value()},
            {"reaches", c.reaches.has_value()},
            {"order_of_events", c.order_of_events.has_value()},
+           {"none_of_events", c.none_of_events.has_value()},
            {"happens", c.happens.has_value()},
            {"never_happens", c.never_happens.has_value()},
            {"metric_below", c.metric_below.has_value()},
@@ -209,6 +210,10 @@ std::unique_ptr<Assertion> make_without_subject(const std::string& kind, const C
     if (config.order_of_events->empty()) throw std::invalid_argument("order_of_events names no event");
     return std::make_unique<OrderOfEvents>(*config.order_of_events);
   }
+  if (kind == "none_of_events") {
+    if (config.none_of_events->empty()) throw std::invalid_argument("none_of_events names no event");
+    return std::make_unique<NoneOfEvents>(*config.none_of_events);
+  }
   return make_metric_bound(kind == "metric_below", config);
 }
 
@@ -235,7 +240,7 @@ void refuse_unused(const std::string& kind, const CheckConfig& config) {
 }
 
 bool has_subject(const std::string& kind) {
-  return kind != "order_of_events" && kind != "happens" && kind != "never_happens" &&
+  return !kind.ends_with("_of_events") && kind != "happens" && kind != "never_happens" &&
          !kind.starts_with("metric_");
 }
 

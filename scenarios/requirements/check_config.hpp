@@ -74,6 +74,7 @@ struct CheckConfig {
   std::optional<std::string> stays_within_tube;
   std::optional<ReachesConfig> reaches;
   std::optional<std::vector<std::string>> order_of_events;
+  std::optional<std::vector<std::string>> none_of_events;
   std::optional<std::string> happens;
   std::optional<std::string> never_happens;
   std::optional<std::string> metric_below;
@@ -102,6 +103,7 @@ struct CheckConfig {
           "a position is never farther than this from the polyline of the waypoints");
     visit("reaches", self.reaches, "", "comes close to the target once");
     visit("order_of_events", self.order_of_events, "", "these events happen in this order");
+    visit("none_of_events", self.none_of_events, "", "events, none of which may happen, in the window");
     visit("happens", self.happens, "", "a condition holds at some time: `path == value`, also != < <= > >=");
     visit("never_happens", self.never_happens, "", "a condition holds at no time");
     visit("metric", self.metric, "", "name of the metric that metric_below and metric_above judge");

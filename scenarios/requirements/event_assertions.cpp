@@ -94,6 +94,24 @@ void OrderOfEvents::fail(const Timeline& timeline, std::size_t name, double prev
   }
 }
 
+void NoneOfEvents::judge(const RunFacts& facts, CheckResult& result) const {
+  result.unit = "s";
+  result.margin = result.time = kNone;
+  if (!from_) {
+    result.explanation = "the run ended before anything could be listened for";
+    return;
+  }
+  result.outcome = Outcome::kPass;
+  for (const std::string& name : names_) {
+    const std::optional<double> time = facts.timeline.first(name, *from_);
+    const bool happened = time && *time <= until_;
+    if (happened && !(*time >= result.time)) result.time = *time;
+    if (happened) result.outcome = Outcome::kFail;
+    result.explanation += (result.explanation.empty() ? "" : ", ") + name +
+                          (happened ? " at " + with_unit(*time, "s") : std::string(" at no time"));
+  }
+}
+
 void MetricBound::judge(const RunFacts& facts, CheckResult& result) const {
   const auto found = std::find_if(facts.metrics.begin(), facts.metrics.end(),
                                   [this](const Metric& metric) { return metric.name == metric_; });

@@ -51,6 +51,22 @@ class OrderOfEvents final : public Assertion {
   void fail(const Timeline& timeline, std::size_t name, double previous, CheckResult& result) const;
 };
 
+/// none_of_events: no event of these names inside the window. It has no margin.
+class NoneOfEvents final : public Assertion {
+ public:
+  explicit NoneOfEvents(std::vector<std::string> names) : names_(std::move(names)) {}
+  void sample(double time) override {
+    if (!from_) from_ = time;
+    until_ = time;
+  }
+  void judge(const RunFacts& facts, CheckResult& result) const override;
+
+ private:
+  std::vector<std::string> names_;
+  std::optional<double> from_;
+  double until_ = 0.0;
+};
+
 /// metric_below and metric_above.
 class MetricBound final : public Assertion {
  public:

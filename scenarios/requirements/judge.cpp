@@ -38,8 +38,7 @@ void Judge::observe(Time now) {
   for (Check& check : checks_) check.observe(time, timeline_);
 }
 
-Verdict Judge::finish(const RunIdentity& run, const std::vector<std::string>& broken_promises,
-                      double wall_seconds) {
+Verdict Judge::finish(const RunIdentity& run, const RunFlaws& flaws, double wall_seconds) {
   metrics_.set_wall_time(wall_seconds);
   Verdict verdict;
   verdict.run = run;
@@ -47,7 +46,7 @@ Verdict Judge::finish(const RunIdentity& run, const std::vector<std::string>& br
   const RunFacts facts{timeline_, verdict.metrics};
   for (const Check& check : checks_) verdict.checks.push_back(check.result(facts));
   verdict.events = timeline_.events();
-  conclude(verdict, broken_promises);
+  conclude(verdict, flaws);
   return verdict;
 }
 

@@ -36,10 +36,8 @@ class Judge {
   /// All events so far, the judge's own (phases, arming, waypoints, health) among them.
   const std::vector<RunEvent>& events() const { return timeline_.events(); }
 
-  /// @param broken_promises  what the bench failed to keep, one line each; any makes the run invalid
-  /// @param wall_seconds     time that the run took, s; 0: unknown
-  Verdict finish(const RunIdentity& run, const std::vector<std::string>& broken_promises,
-                 double wall_seconds);
+  /// @param wall_seconds  time that the run took, s; 0: unknown
+  Verdict finish(const RunIdentity& run, const RunFlaws& flaws, double wall_seconds);
 
  private:
   RunMetrics metrics_;

@@ -20,7 +20,8 @@ inline constexpr std::array<std::string_view, 3> kPositionEvents{"gnss_step", "p
 inline constexpr std::array<std::string_view, 2> kDoubtEvents{"doubtful", "sure"};
 
 /// What the pilot sees of the ground: the vehicle leaves it, comes down on it well, or otherwise.
-inline constexpr std::array<std::string_view, 3> kGroundEvents{"lifted_off", "landed", "crashed"};
+inline constexpr std::string_view kLiftedOff = "lifted_off";
+inline constexpr std::array<std::string_view, 3> kGroundEvents{kLiftedOff, "landed", "crashed"};
 
 /// Something that happened in a run.
 struct RunEvent {

@@ -4,23 +4,39 @@
 
 namespace ironbird::scenarios {
 
-void conclude(Verdict& verdict, const std::vector<std::string>& broken_promises) {
-  verdict.reasons = broken_promises;
-  if (!broken_promises.empty()) {
+namespace {
+
+std::string reason_of(const CheckResult& check) {
+  return check.name + ": " + check.explanation;
+}
+
+}  // namespace
+
+void conclude(Verdict& verdict, const RunFlaws& flaws) {
+  verdict.reasons = flaws.broken_promises;
+  if (!flaws.broken_promises.empty()) {
     verdict.outcome = Outcome::kInvalid;
     return;
   }
-  if (verdict.checks.empty()) {
-    verdict.outcome = Outcome::kInconclusive;
-    verdict.reasons.push_back("the scenario has no checks");
-    return;
-  }
-  verdict.outcome = Outcome::kPass;
+  verdict.reasons = flaws.gaps;
+  if (verdict.checks.empty()) verdict.reasons.emplace_back("the scenario has no checks");
+  verdict.outcome = verdict.reasons.empty() ? Outcome::kPass : Outcome::kInconclusive;
   for (const CheckResult& check : verdict.checks) {
     if (check.outcome == Outcome::kPass) continue;
-    verdict.reasons.push_back(check.name + ": " + check.explanation);
+    verdict.reasons.push_back(reason_of(check));
     if (verdict.outcome != Outcome::kFail) verdict.outcome = check.outcome;
   }
+}
+
+std::vector<std::string> reasons_of_the_run(const Verdict& verdict) {
+  std::vector<std::string> own;
+  for (const std::string& reason : verdict.reasons) {
+    const bool is_of_a_check =
+        std::any_of(verdict.checks.begin(), verdict.checks.end(),
+                    [&](const CheckResult& check) { return reason == reason_of(check); });
+    if (!is_of_a_check) own.push_back(reason);
+  }
+  return own;
 }
 
 int exit_code(Outcome outcome) {

@@ -49,9 +49,25 @@ struct Verdict {
   }
 };
 
-/// Finds outcome and reasons: invalid if `broken_promises` names any, else the worst of the checks. A run
-/// without a check is inconclusive: nothing was asked of it.
-void conclude(Verdict& verdict, const std::vector<std::string>& broken_promises);
+/// What is wrong with a run as a whole, whatever its checks find.
+struct RunFlaws {
+  std::vector<std::string> broken_promises;
+  std::vector<std::string> gaps;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("broken_promises", self.broken_promises, "", "what the bench failed to keep, one line each");
+    visit("gaps", self.gaps, "", "what the scenario says and did not happen, one line each");
+  }
+};
+
+/// Finds outcome and reasons: invalid if a promise was broken, else the worst of the checks. A run without a
+/// check is inconclusive, nothing was asked of it; so is a run with a gap that its checks pass: it did not
+/// show what its scenario is about.
+void conclude(Verdict& verdict, const RunFlaws& flaws);
+
+/// The reasons that no check gives: broken promises, gaps, that there are no checks.
+std::vector<std::string> reasons_of_the_run(const Verdict& verdict);
 
 /// What the program returns for a run: 0 pass, 1 fail, 5 inconclusive or invalid.
 int exit_code(Outcome outcome);

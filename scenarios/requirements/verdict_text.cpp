@@ -129,11 +129,10 @@ std::string verdict_table(const Verdict& verdict, bool colour, std::size_t colum
                                   [](const CheckResult& check) { return check.outcome == Outcome::kPass; });
   out += painted(std::string(name_of(verdict.outcome)), verdict.outcome, colour) + ": " +
          std::to_string(held) + " of " + std::to_string(verdict.checks.size()) + " checks hold\n";
-  const bool reasons_are_news = verdict.outcome == Outcome::kInvalid || verdict.checks.empty();
-  for (const std::string& reason : verdict.reasons) {
-    if (reasons_are_news) out += "  " + wrapped(reason, 2, columns) + "\n";
-  }
-  for (const std::string& warning : verdict.warnings) out += "warning: " + warning + "\n";
+  for (const std::string& reason : reasons_of_the_run(verdict))
+    out += "  " + wrapped(reason, 2, columns) + "\n";
+  for (const std::string& warning : verdict.warnings)
+    out += wrapped("warning: " + warning, 2, columns) + "\n";
   return out;
 }
 
@@ -144,10 +143,10 @@ std::string verdict_lines(const Verdict& verdict) {
            ": margin " + margin_text(check) + ": " + check.explanation + "\n";
   }
   out += verdict.run.scenario + ": " + std::string(name_of(verdict.outcome));
-  for (const std::string& reason : verdict.reasons) {
-    if (verdict.outcome == Outcome::kInvalid || verdict.checks.empty()) out += ": " + reason;
-  }
-  out += "\n";
+  std::string reasons;
+  for (const std::string& reason : reasons_of_the_run(verdict))
+    reasons += (reasons.empty() ? ": " : "; ") + reason;
+  out += reasons + "\n";
   for (const std::string& warning : verdict.warnings)
     out += verdict.run.scenario + ": warning: " + warning + "\n";
   return out;

@@ -110,21 +110,5 @@ TEST(BadFileTest, AFindingInAnIncludedFileNamesThatFile) {
   EXPECT_NE(said.text.find("base.toml:2:12: duration = '8 kg'"), std::string::npos) << said.text;
 }
 
-TEST(WarningTest, TellsWhatNeverHappenedInFlight) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write(
-      "waits.toml", std::string("end_after = \"landed\"\n") + kMission +
-                        "[[event]]\nname = \"late\"\nafter = \"lost\"\nrequest = \"land\"\n[[check]]\nname = "
-                        "\"c\"\nhappens = \"autopilot.flight.fcu.armed\"\n");
-  const Said said = run_shell(kProgram + " run " + file + " --no-log --out " + folder.text());
-  EXPECT_EQ(said.exit_code, 0) << said.text;
-  const std::string late = "event \"late\" waited for \"lost\", which never happened";
-  EXPECT_NE(said.text.find("waits: warning: " + late), std::string::npos) << said.text;
-  EXPECT_NE(said.text.find("the end of the run waited for \"landed\""), std::string::npos) << said.text;
-  std::ifstream verdict(folder / "waits/verdict.json");
-  const std::string json((std::istreambuf_iterator<char>(verdict)), std::istreambuf_iterator<char>());
-  EXPECT_NE(json.find("event \\\"late\\\" waited for"), std::string::npos) << json.substr(0, 500);
-}
-
 }  // namespace
 }  // namespace ironbird::scenarios

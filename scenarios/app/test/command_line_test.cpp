@@ -97,8 +97,8 @@ INSTANTIATE_TEST_SUITE_P(Verbs, ExamplesTest,
                          [](const auto& tested) { return std::string(tested.param); });
 
 constexpr const char* kMission =
-    "duration = \"3 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n[[check]]\nname = \"c\"\nhappens = "
-    "\"autopilot.flight.fcu.armed == false\"\nafter = \"1 s\"\n";
+    "duration = \"3 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n[[check]]\nname = \"c\"\nnone_of_events = "
+    "[\"lifted_off\"]\n";
 
 class TerminalTest : public ::testing::Test {
  protected:

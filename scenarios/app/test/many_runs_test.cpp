@@ -16,8 +16,8 @@ using ::testing::Not;
 using Json = nlohmann::json;
 
 constexpr const char* kMission =
-    "duration = \"2 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n[[check]]\nname = \"c\"\nhappens = "
-    "\"autopilot.flight.fcu.armed == false\"\nafter = \"1 s\"\n";
+    "duration = \"2 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n[[check]]\nname = \"c\"\nnone_of_events = "
+    "[\"lifted_off\"]\n";
 constexpr const char* kEndless = "duration = \"20 h\"\n[[waypoint]]\np_N = [0, 0, -5]\n";
 const std::string kFaulty = "'" FAULTY_PROGRAM "'";
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/report/plot/mark_names.hpp"
 #include "scenarios/report/plot/svg.hpp"
 
 namespace ironbird::scenarios::plot {
@@ -11,10 +12,9 @@ namespace {
 
 constexpr double kLeft = 62.0;         // px: room for the numbers of the y axis
 constexpr double kRight = 14.0;        // px
-constexpr double kLetter = 6.9;        // px: width of a letter, on the safe side
-constexpr double kApart = 10.0;        // px: between the names of two marks, at the least
-constexpr double kNames = 13.0;        // px: names of marks, topmost
-constexpr double kLane = 35.0;         // px: names and the lane of phases above the first panel
+constexpr double kNear = 3.0;          // px: from a mark to its name
+constexpr double kRow = 13.0;          // px: a row of names of marks, topmost
+constexpr double kLane = 22.0;         // px: the lane of phases between the names and the first panel
 constexpr double kCaption = 22.0;      // px: title and legend above each panel
 constexpr double kBottom = 40.0;       // px: numbers and name of the time axis
 constexpr double kThinPerPixel = 1.0;  // slices per pixel
@@ -24,15 +24,30 @@ constexpr double kTolerance = 0.12;    // px: what the eye does not see
 struct Layout {
   const TimeStack& stack;
   Axis time;
+  MarkNames names;
 
   double right() const { return stack.width - kRight; }
+  double lane() const { return static_cast<double>(names.rows) * kRow; }
+  /// Where the names of a row stand. @param row  0: next to the lane
+  double baseline(std::size_t row) const { return lane() - static_cast<double>(row) * kRow - 4.0; }
   double top(std::size_t panel) const {
-    return kLane + kCaption + static_cast<double>(panel) * (stack.panel_height + kCaption);
+    return lane() + kLane + kCaption + static_cast<double>(panel) * (stack.panel_height + kCaption);
   }
   double bottom(std::size_t panel) const { return top(panel) + stack.panel_height; }
   double height() const { return bottom(stack.panels.size() - 1) + kBottom; }
   double x(double t) const { return kLeft + (t - time.low) / (time.high - time.low) * (right() - kLeft); }
 };
+
+Layout layout_of(const TimeStack& stack, const TimeFrame& frame) {
+  const int ticks = static_cast<int>((stack.width - kLeft - kRight) / 70.0);
+  Layout layout{stack, tight_axis(frame.range, std::max(2, ticks)), {}};
+  std::vector<MarkName> wanted;
+  for (const Mark& mark : frame.marks) {
+    wanted.push_back({layout.x(mark.time), width_of(mark.label) + kNear, !mark.style.empty(), mark.label});
+  }
+  layout.names = placed(wanted, kLeft, stack.width);
+  return layout;
+}
 
 /// The y axis of one panel.
 struct Scale {
@@ -159,48 +174,66 @@ std::string draw_panel(const Panel& panel, const Layout& layout, std::size_t ind
   return out + "</g></g></g>";
 }
 
-/// The lane above the panels: names of phases, and a flag for each mark.
+/// What had no room, counted in the margin, with its names for who points at it.
+std::string count_of_more(const std::vector<std::string>& names, double y) {
+  if (names.empty()) return "";
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "no room for: " : ", ") + name;
+  return "<text" + attribute("class", "more") + " x=\"" + coordinate(kLeft - 7.0) + "\" y=\"" +
+         coordinate(y) + "\"><title>" + escaped(all) + "</title>+" + std::to_string(names.size()) +
+         " more</text>";
+}
+
+std::string phase_names(const TimeFrame& frame, const Layout& layout) {
+  std::string out = "<g class=\"phase-names\">";
+  std::vector<std::string> unnamed;
+  for (const Stretch& stretch : frame.stretches) {
+    const double from = layout.x(stretch.from), to = layout.x(stretch.to);
+    if (to - from > width_of(stretch.name) + 8.0) {
+      out += text((from + to) / 2.0, layout.lane() + 12.5, "phase-name", stretch.name);
+    } else {
+      unnamed.push_back(stretch.name);
+    }
+  }
+  return out + count_of_more(unnamed, layout.lane() + 12.5) + "</g>";
+}
+
+/// The lane above the panels: the phases, and a flag for each mark up to its name.
 std::string lane(const TimeFrame& frame, const Layout& layout, const std::string& clip) {
   std::string out = "<g clip-path=\"url(#" + clip + ")\"><g class=\"zoom\">";
   for (const Stretch& stretch : frame.stretches) {
     const double from = layout.x(stretch.from), to = layout.x(stretch.to);
-    out += "<g>" +
-           rectangle(from, kNames + 1.0, std::max(0.0, to - from), 15.0, "phase-lane " + stretch.style) +
-           "<title>" + escaped(stretch.name) + "</title></g>";
+    out +=
+        "<g>" +
+        rectangle(from, layout.lane() + 1.0, std::max(0.0, to - from), 15.0, "phase-lane " + stretch.style) +
+        "<title>" + escaped(stretch.name) + "</title></g>";
   }
-  for (const Mark& mark : frame.marks) {
+  for (std::size_t i = 0; i < frame.marks.size(); ++i) {
+    const Mark& mark = frame.marks[i];
     const double x = layout.x(mark.time);
-    out += "<g>" + line(x, 0.0, x, kLane, "mark " + mark.style) + "<title>" + escaped(mark.name) +
-           "</title></g>";
+    const auto& place = layout.names.places[i];
+    const double from = place ? layout.baseline(place->row) - 9.0 : layout.lane();
+    out += "<g>" + line(x, from, x, layout.lane() + kLane, "mark " + mark.style) + "<title>" +
+           escaped(mark.name) + "</title></g>";
   }
-  out += "</g></g><g class=\"phase-names\">";
-  for (const Stretch& stretch : frame.stretches) {
-    const double from = layout.x(stretch.from), to = layout.x(stretch.to);
-    const bool fits = to - from > kLetter * static_cast<double>(stretch.name.size()) + 8.0;
-    if (fits) out += text((from + to) / 2.0, kNames + 12.5, "phase-name", stretch.name);
-  }
-  return out + "</g>";
+  return out + "</g></g>";
 }
 
-/// The names of the marks that have room, above the lane: first of those with a style of their own, for
-/// example faults.
 std::string mark_names(const TimeFrame& frame, const Layout& layout) {
   std::string out = "<g class=\"mark-names\">";
-  std::vector<std::pair<double, double>> taken;
-  for (const bool styled : {true, false}) {
-    for (const Mark& mark : frame.marks) {
-      const double from = layout.x(mark.time);
-      const double to = from + kLetter * static_cast<double>(mark.label.size()) + kApart;
-      const bool collides = std::any_of(taken.begin(), taken.end(), [=](const auto& span) {
-        return from < span.second && span.first < to;
-      });
-      const bool fits = from >= kLeft && to - kApart <= layout.stack.width && !collides;
-      if (mark.style.empty() == styled || mark.label.empty() || !fits) continue;
-      out += text(from + 3.0, 9.0, "mark-name " + mark.style, mark.label);
-      taken.emplace_back(from, to);
+  std::vector<std::string> unnamed;
+  for (std::size_t i = 0; i < frame.marks.size(); ++i) {
+    const Mark& mark = frame.marks[i];
+    const auto& place = layout.names.places[i];
+    if (!place) {
+      if (!mark.label.empty()) unnamed.push_back(mark.label);
+      continue;
     }
+    const double x = layout.x(mark.time) + (place->before ? -kNear : kNear);
+    out += text(x, layout.baseline(place->row), "mark-name " + mark.style + (place->before ? " before" : ""),
+                mark.label);
   }
-  return out + "</g>";
+  return out + count_of_more(unnamed, layout.baseline(0)) + "</g>";
 }
 
 std::string time_axis(const Layout& layout) {
@@ -222,7 +255,7 @@ std::string clip_path(const std::string& id, const Layout& layout) {
          "\"/></clipPath>";
 }
 
-/// A name that is unique on a page as long as titles are.
+/// A name that is unique on a page as long as titles of one width are.
 std::string clip_name(const std::string& title) {
   std::string id = "clip-";
   for (const char letter : title) {
@@ -244,17 +277,21 @@ std::string legend(const TimeStack& stack) {
   return legend(entries);
 }
 
+double height(const TimeStack& stack, const TimeFrame& frame) {
+  return layout_of(stack, frame).height();
+}
+
 std::string draw(const TimeStack& stack, const TimeFrame& frame) {
   if (stack.panels.empty()) return "";
-  const int ticks = static_cast<int>((stack.width - kLeft - kRight) / 70.0);
-  const Layout layout{stack, tight_axis(frame.range, std::max(2, ticks))};
-  const std::string clip = clip_name(stack.title);
+  const Layout layout = layout_of(stack, frame);
+  const std::string clip = clip_name(stack.title + coordinate(stack.width));
   std::string out = "<svg class=\"time-stack\" role=\"img\" viewBox=\"0 0 " + coordinate(stack.width) + " " +
                     coordinate(layout.height()) + "\"" + attribute("aria-label", stack.title) +
                     attribute("data-left", kLeft) + attribute("data-right", layout.right()) +
                     attribute("data-from", layout.time.low) + attribute("data-to", layout.time.high) + ">";
   out += "<title>" + escaped(stack.title) + "</title><defs>" + clip_path(clip, layout) + "</defs>";
-  out += lane(frame, layout, clip) + mark_names(frame, layout) + time_axis(layout);
+  out +=
+      lane(frame, layout, clip) + phase_names(frame, layout) + mark_names(frame, layout) + time_axis(layout);
   for (std::size_t i = 0; i < stack.panels.size(); ++i)
     out += draw_panel(stack.panels[i], layout, i, frame, clip);
   return out + "</svg>";

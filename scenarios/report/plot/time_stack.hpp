@@ -46,7 +46,7 @@ struct Stretch {
 struct Mark {
   double time = 0.0;
   std::string name;   ///< in full
-  std::string label;  ///< shown above the lane where there is room
+  std::string label;  ///< shown above the lane where there is room, else counted: "+2 more"
   std::string style;
 };
 
@@ -68,6 +68,9 @@ struct TimeStack {
 /// The drawing as an SVG element with an accessible title. It reads without a script; the page's script finds
 /// the ranges in its data attributes and adds the cursor and the zoom.
 std::string draw(const TimeStack& stack, const TimeFrame& frame);
+
+/// How tall the drawing is, px of its own coordinates: the names of the marks take up to four rows.
+double height(const TimeStack& stack, const TimeFrame& frame);
 
 /// What its curves and strips mean, as an HTML element.
 std::string legend(const TimeStack& stack);

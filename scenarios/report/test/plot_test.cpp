@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -174,38 +175,92 @@ TEST(TimeStackTest, DrawsEachSeriesAndItsTitle) {
   EXPECT_NE(svg.find("<title>fault: gust</title>"), std::string::npos);
 }
 
-/// Where the texts of a class begin, or where their middle is, px, and what they say, from left to right.
-std::vector<std::pair<double, std::string>> texts_of(const std::string& svg, const std::string& name) {
-  std::vector<std::pair<double, std::string>> found;
+/// A text of a drawing: where it begins, or its middle or its end is, and how high it stands, px.
+struct TextAt {
+  double x = 0.0;
+  double y = 0.0;
+  bool is_end = false;
+  std::string words;
+};
+
+std::vector<TextAt> texts_of(const std::string& svg, const std::string& name) {
+  std::vector<TextAt> found;
   for (std::size_t at = 0; (at = svg.find("<text", at)) != std::string::npos; ++at) {
     const std::string tag = svg.substr(at, svg.find("</text>", at) - at);
-    if (tag.find("\"" + name) == std::string::npos) continue;
-    found.emplace_back(std::stod(tag.substr(tag.find(" x=\"") + 4)), tag.substr(tag.find('>') + 1));
+    if (tag.find("class=\"" + name) == std::string::npos) continue;
+    const auto number = [&](const char* key) { return std::stod(tag.substr(tag.find(key) + 4)); };
+    found.push_back({number(" x=\""), number(" y=\""), tag.find(" before\"") != std::string::npos,
+                     tag.substr(tag.rfind('>') + 1)});
   }
-  std::sort(found.begin(), found.end());
   return found;
 }
 
-TEST(TimeStackTest, LeavesRoomBetweenTwoNamesOnANarrowPage) {
-  constexpr double kWidestLetter = 6.9;  // px, of a face at this size
-  constexpr double kRoom = 6.0;          // px that the eye takes for a gap
-  TimeStack stack{
+constexpr double kWidestLetter = 6.9;  // px, of a face at this size
+
+TimeStack narrow_stack() {
+  return {
       "narrow", {Panel{"north", "m", {{"truth", "c1", {0.0, 1.0}, {0.0, 2.0}}}, {}, 0.5, ""}}, 400.0, 60.0};
+}
+
+TimeFrame crowded_frame(int marks) {
   TimeFrame frame;
   frame.range = {0.0, 100.0, false};
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < marks; ++i) {
     const std::string name = "waypoint_" + std::to_string(i);
-    frame.marks.push_back({0.5 * i, name, name, ""});
+    frame.marks.push_back({100.0 * i / marks, name, name, ""});
   }
+  return frame;
+}
+
+TEST(TimeStackTest, LeavesRoomBetweenTwoNamesOfARow) {
+  constexpr double kRoom = 6.0;  // px that the eye takes for a gap
+  std::map<double, std::vector<std::pair<double, double>>> rows;
+  for (const TextAt& text : texts_of(draw(narrow_stack(), crowded_frame(200)), "mark-name")) {
+    const double width = kWidestLetter * static_cast<double>(text.words.size());
+    rows[text.y].emplace_back(text.x - (text.is_end ? width : 0.0), text.x + (text.is_end ? 0.0 : width));
+  }
+  ASSERT_GT(rows.size(), 1U);
+  for (auto& [y, spans] : rows) {
+    std::sort(spans.begin(), spans.end());
+    ASSERT_GT(spans.size(), 2U);
+    for (std::size_t i = 1; i < spans.size(); ++i)
+      EXPECT_GT(spans[i].first - spans[i - 1].second, kRoom) << y;
+    EXPECT_LE(spans.back().second, 400.0);
+  }
+}
+
+TEST(TimeStackTest, CountsTheNamesThatHaveNoRoom) {
+  const std::string svg = draw(narrow_stack(), crowded_frame(200));
+  const std::size_t named = texts_of(svg, "mark-name").size();
+  const std::vector<TextAt> more = texts_of(svg, "more");
+  ASSERT_EQ(more.size(), 1U);
+  EXPECT_EQ(more[0].words, "+" + std::to_string(200 - named) + " more");
+  EXPECT_NE(svg.find("<title>no room for: waypoint_"), std::string::npos);
+  EXPECT_TRUE(texts_of(draw(narrow_stack(), crowded_frame(4)), "more").empty());
+}
+
+TEST(TimeStackTest, PutsTheNameOfAMarkAtTheEndBeforeIt) {
+  TimeFrame frame = crowded_frame(0);
+  frame.marks = {{99.0, "ground: landed", "landed", ""}};
+  const std::vector<TextAt> names = texts_of(draw(narrow_stack(), frame), "mark-name");
+  ASSERT_EQ(names.size(), 1U);
+  EXPECT_TRUE(names[0].is_end);
+}
+
+TEST(TimeStackTest, CountsThePhasesThatHaveNoRoomForTheirNames) {
+  TimeFrame frame = crowded_frame(0);
   for (int i = 0; i < 4; ++i) frame.stretches.push_back({19.0 * i, 19.0 * (i + 1), "take_off", "take_off"});
-  const std::string svg = draw(stack, frame);
-  const auto marks = texts_of(svg, "mark-name");
-  ASSERT_GT(marks.size(), 2U);
-  for (std::size_t i = 1; i < marks.size(); ++i) {
-    const double end = marks[i - 1].first + kWidestLetter * static_cast<double>(marks[i - 1].second.size());
-    EXPECT_GT(marks[i].first - end, kRoom) << marks[i].second;
-  }
+  const std::string svg = draw(narrow_stack(), frame);
   EXPECT_TRUE(texts_of(svg, "phase-name").empty()) << "a stretch of 61 px has no room for eight letters";
+  ASSERT_EQ(texts_of(svg, "more").size(), 1U);
+  EXPECT_EQ(texts_of(svg, "more")[0].words, "+4 more");
+}
+
+TEST(TimeStackTest, GrowsWithTheRowsOfItsNames) {
+  const double plain = height(narrow_stack(), crowded_frame(1));
+  EXPECT_GT(height(narrow_stack(), crowded_frame(200)), plain + 30.0);
+  EXPECT_NE(draw(narrow_stack(), crowded_frame(1)).find("viewBox=\"0 0 400 " + coordinate(plain) + "\""),
+            std::string::npos);
 }
 
 TEST(PlaneTest, HasTheSameScaleOnBothAxes) {

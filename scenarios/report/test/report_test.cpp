@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenarios/report/figures.hpp"
@@ -50,6 +51,18 @@ TEST(NestingTest, FindsMistakes) {
   EXPECT_EQ(nesting_mistake("<a><b x=\"1\"/></a>"), "");
   EXPECT_NE(nesting_mistake("<a><b></a>"), "");
   EXPECT_NE(nesting_mistake("<a>"), "");
+}
+
+Verdict verdict_with(Outcome outcome) {
+  Verdict verdict;
+  verdict.run.scenario = "a<b";
+  CheckResult check;
+  check.name = "name \"x\"";
+  check.outcome = outcome;
+  check.explanation = "1 < 2";
+  verdict.checks = {check};
+  conclude(verdict, {});
+  return verdict;
 }
 
 class ReportTest : public ::testing::Test {
@@ -132,6 +145,36 @@ TEST_F(ReportTest, OverlaysSeveralRuns) {
   write_report(runs, folder("two") / "report.html");
 }
 
+TEST_F(ReportTest, SaysWhatADistanceIsOf) {
+  std::vector<ReportRun> runs = one();
+  Verdict verdict = *runs.front().verdict();
+  verdict.events = {{20.0, "position_reset", "4.053 m"}, {30.0, "refused", "take_off: it lies on its back"}};
+  runs.front() = {"labels", Log::read(folder("one") / "flight.mcap"), verdict};
+  const std::string page = report_html(runs);
+  EXPECT_NE(page.find(">position_reset 4.053 m</text>"), std::string::npos);
+  EXPECT_NE(page.find(">refused: take_off</text>"), std::string::npos);
+}
+
+TEST_F(ReportTest, DrawsWideFiguresOnceMoreForANarrowPage) {
+  const std::string page = report_html(one());
+  for (const char* title : {"Position and heading against command", "Motors and battery"}) {
+    const std::size_t at = page.find(std::string("<figcaption>") + title);
+    const std::size_t end = page.find("</figure>", at);
+    const std::size_t narrow = page.find("<div class=\"narrow\"><svg class=\"time-stack\"", at);
+    EXPECT_LT(page.find("<div class=\"wide\"><svg class=\"time-stack\"", at), narrow) << title;
+    EXPECT_LT(narrow, end) << title;
+  }
+}
+
+TEST_F(ReportTest, WarnsAlthoughTheRunPasses) {
+  std::vector<ReportRun> runs = one();
+  Verdict verdict = verdict_with(Outcome::kPass);
+  verdict.warnings = {"snapshot \"x\" was not taken"};
+  runs.front() = {"warned", Log::read(folder("one") / "flight.mcap"), verdict};
+  EXPECT_NE(report_html(runs).find("<li>warning: snapshot &quot;x&quot; was not taken</li>"),
+            std::string::npos);
+}
+
 TEST_F(ReportTest, DrawsNoRunsAtAll) {
   EXPECT_EQ(nesting_mistake(report_html({})), "");
 }
@@ -160,16 +203,48 @@ TEST(FlightDataTest, ThePathIsThatOfTheMissionAndNotOfTheWayHome) {
   EXPECT_NEAR(std::sqrt(squares / samples) / rms->value, 1.0, kSampling);
 }
 
+/// The least and the greatest time at which a curve has a number, s.
+std::pair<double, double> known(const Curve& curve) {
+  std::pair<double, double> span{NAN, NAN};
+  for (std::size_t i = 0; i < curve.value.size(); ++i) {
+    if (!std::isfinite(curve.value[i])) continue;
+    if (std::isnan(span.first)) span.first = curve.time[i];
+    span.second = curve.time[i];
+  }
+  return span;
+}
+
+TEST(FlightDataTest, ACommandIsThereWhileTheCompanionFlies) {
+  const ReportRun run = SyntheticFlight().fly(folder("command"), "command");
+  constexpr double kPeriod = 0.021;  // s, of what the log holds
+  // The trajectory is valid from 2 s to 57 s; offboard are 10 s to 44 s of them.
+  for (const Curve& curve :
+       {command_of(run, "/autopilot/trajectory", "p_N.x"), setpoint_angle(run, "roll")}) {
+    EXPECT_NEAR(known(curve).first, 10.0, kPeriod);
+    EXPECT_NEAR(known(curve).second, 44.0, kPeriod);
+  }
+}
+
+TEST(FlightDataTest, AnEstimateIsThereSinceTheEstimatorBegan) {
+  const ReportRun run = SyntheticFlight().fly(folder("began"), "began");
+  EXPECT_NEAR(known(estimate_of(run, "p_NB_N.x")).first, SyntheticFlight::kEstimatorBegins, 0.01);
+  EXPECT_NEAR(known(position_error(run)[0]).first, SyntheticFlight::kEstimatorBegins, 0.01);
+}
+
 TEST(FlightDataTest, ErrorsAreEstimateLessTruth) {
   constexpr double kRoundOff = 1e-9;
   const ReportRun run = SyntheticFlight(0.25).fly(folder("errors"), "errors");
   const Curves position = position_error(run);
   ASSERT_EQ(position[1].value.size(), 12001u);
   // East: the offset and a wobble of two centimetres.
-  for (const double error : position[1].value) EXPECT_NEAR(error, 0.25, 0.02 + kRoundOff);
+  const auto begin = static_cast<std::ptrdiff_t>(SyntheticFlight::kEstimatorBegins / 0.005 + 0.5);
+  for (auto error = position[1].value.begin() + begin; error != position[1].value.end(); ++error)
+    EXPECT_NEAR(*error, 0.25, 0.02 + kRoundOff);
   const Curves velocity = velocity_error(run), attitude = attitude_error(run);
-  for (const double error : velocity[0].value) EXPECT_NEAR(error, 0.0, 0.012 + kRoundOff);
-  for (const double error : attitude[2].value) EXPECT_NEAR(error, 0.0, 0.004 + kRoundOff);
+  for (std::size_t i = static_cast<std::size_t>(begin); i < position[1].value.size(); ++i) {
+    EXPECT_NEAR(velocity[0].value[i], 0.0, 0.012 + kRoundOff);
+    EXPECT_NEAR(attitude[2].value[i], 0.0, 0.004 + kRoundOff);
+  }
 }
 
 TEST(FlightDataTest, ResamplesLinearlyAndHoldsTheEnds) {
@@ -190,18 +265,6 @@ TEST(FlightDataTest, BreaksCurvesWhereAnglesWrap) {
   EXPECT_TRUE(std::isnan(out.value[1]));
 }
 
-Verdict verdict_with(Outcome outcome) {
-  Verdict verdict;
-  verdict.run.scenario = "a<b";
-  CheckResult check;
-  check.name = "name \"x\"";
-  check.outcome = outcome;
-  check.explanation = "1 < 2";
-  verdict.checks = {check};
-  conclude(verdict, {});
-  return verdict;
-}
-
 TEST(JunitTest, MapsOutcomesToCases) {
   const std::string xml = junit_xml({{"a<b", verdict_with(Outcome::kPass), ""},
                                      {"b", verdict_with(Outcome::kFail), ""},
@@ -217,10 +280,18 @@ TEST(JunitTest, MapsOutcomesToCases) {
 
 TEST(JunitTest, ShowsAnInvalidRunAsACaseOfItsOwn) {
   Verdict verdict = verdict_with(Outcome::kPass);
-  conclude(verdict, {"the plant diverged"});
+  conclude(verdict, {{"the plant diverged"}, {}});
   const std::string xml = junit_xml({{"a", verdict, ""}});
   EXPECT_NE(xml.find("tests=\"2\" failures=\"0\" errors=\"1\""), std::string::npos);
   EXPECT_NE(xml.find("the plant diverged"), std::string::npos);
+}
+
+TEST(JunitTest, ShowsWhatTheScenarioSaysAndDidNotHappenAsAnError) {
+  Verdict verdict = verdict_with(Outcome::kPass);
+  conclude(verdict, {{}, {"event \"gust\" never came"}});
+  const std::string xml = junit_xml({{"a", verdict, ""}});
+  EXPECT_NE(xml.find("tests=\"2\" failures=\"0\" errors=\"1\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("event &quot;gust&quot; never came"), std::string::npos) << xml;
 }
 
 TEST(JunitTest, ShowsARunWithoutAVerdictAsAnError) {

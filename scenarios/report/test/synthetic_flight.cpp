@@ -124,6 +124,7 @@ void SyntheticFlight::set(double t) {
 
 void SyntheticFlight::set_estimate(double t, const EulerAngles& angles) {
   autopilot::StateEstimate& estimate = signals_.estimate;
+  if (t < kEstimatorBegins) return;
   estimate.health = autopilot::Health::kGood;
   estimate.p_NB_N = truth_.p_NB_N + Vector3d(0.03 * wobble(t, 0.11), offset_east_ + 0.02 * wobble(t, 0.13),
                                              0.04 * wobble(t, 0.09));

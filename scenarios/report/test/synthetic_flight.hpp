@@ -17,6 +17,8 @@ namespace ironbird::scenarios {
 /// A flight drawn by formulas, recorded and judged like a real one: take-off, three waypoints, landing.
 class SyntheticFlight {
  public:
+  static constexpr double kEstimatorBegins = 1.0;  ///< s
+
   /// @param offset_east  what the estimate is wrong by, m
   explicit SyntheticFlight(double offset_east = 0.05) : offset_east_(offset_east) {}
 

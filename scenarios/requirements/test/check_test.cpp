@@ -184,6 +184,31 @@ TEST_F(CheckTest, OrderOfEventsUsesEachEventOnce) {
   EXPECT_THAT(twice.explanation, testing::HasSubstr("not once more"));
 }
 
+TEST_F(CheckTest, NoneOfEventsFailsAtTheFirstOfThem) {
+  const auto nothing = [](double) {};
+  script_ = {{3.0, "ground", "crashed"}, {5.0, "ground", "landed"}};
+  const CheckResult failed = run("none_of_events = ['landed', 'gust', 'ground:crashed']", nothing);
+  EXPECT_EQ(failed.outcome, Outcome::kFail);
+  EXPECT_NEAR(failed.time, 3.0, kRoundOff);
+  EXPECT_EQ(failed.explanation, "landed at 5 s, gust at no time, ground:crashed at 3 s");
+  timeline_ = {};
+  EXPECT_EQ(run("none_of_events = ['gust', 'refused']", nothing).outcome, Outcome::kPass);
+}
+
+TEST_F(CheckTest, NoneOfEventsListensInsideItsWindowOnly) {
+  const auto nothing = [](double) {};
+  for (const auto& [window, outcome] :
+       {std::pair{"after = '4 s'", Outcome::kPass}, std::pair{"until = '2 s'", Outcome::kPass},
+        std::pair{"after = '2 s'\nuntil = '4 s'", Outcome::kFail},
+        std::pair{"until = 'landing'", Outcome::kInconclusive}}) {
+    timeline_ = {};
+    script_ = {{3.0, "ground", "crashed"}};
+    if (outcome == Outcome::kInconclusive) script_.clear();
+    const CheckResult result = run(std::string("none_of_events = ['crashed']\n") + window, nothing);
+    EXPECT_EQ(name_of(result.outcome), name_of(outcome)) << window;
+  }
+}
+
 TEST_F(CheckTest, OrderOfEventsLooksInsideItsWindowOnly) {
   const auto nothing = [](double) {};
   script_ = {{1.0, "phase", "take_off"}, {3.0, "phase", "offboard"}, {5.0, "phase", "landing"}};

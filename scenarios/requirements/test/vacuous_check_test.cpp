@@ -37,6 +37,7 @@ const std::vector<AboutFlight>& every_kind() {
       {"stays_within_tube", "signal = 'truth.p_NB_N'\nstays_within_tube = '100 m'"},
       {"reaches", "signal = 'truth.p_NB_N'\nto_point = [0, 0, 0]\nreaches = { tolerance = '1 m' }"},
       {"order_of_events", "order_of_events = ['offboard', 'landing']"},
+      {"none_of_events", "none_of_events = ['request:early', 'landing']"},
       {"happens", "happens = 'autopilot.flight.phase == offboard'"},
       {"never_happens", "never_happens = 'autopilot.flight.phase == landing'"},
       {"metric_below", "metric = 'max_tilt_deg'\nmetric_below = '30'", false},
@@ -98,7 +99,8 @@ TEST_F(VacuousCheckTest, PassesNoKindWhenTheVehicleNeverLeavesTheGround) {
     const bool is_settling = std::string_view(kind.kind) == "settles";
     const bool needs_window = (kind.what.find("v_NB_N") != std::string::npos && !is_settling) ||
                               std::string_view(kind.kind).starts_with("stays_") ||
-                              std::string_view(kind.kind) == "never_happens";
+                              std::string_view(kind.kind) == "never_happens" ||
+                              std::string_view(kind.kind) == "none_of_events";
     const bool is_tube = std::string_view(kind.kind) == "stays_within_tube";
     const std::string window = needs_window && !is_tube ? "\nafter = 'lifted_off'" : "";
     expect_nothing_shown(on_ground(kind.what + window), kind.kind);

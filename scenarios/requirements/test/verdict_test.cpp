@@ -39,7 +39,7 @@ Verdict example() {
 struct OutcomeCase {
   const char* name;
   std::vector<Outcome> checks;
-  std::vector<std::string> promises;
+  RunFlaws flaws;
   Outcome expected;
   int exit_code;
 };
@@ -48,7 +48,7 @@ class ConcludeTest : public ::testing::TestWithParam<OutcomeCase> {};
 TEST_P(ConcludeTest, IsTheWorstOfWhatWasFound) {
   Verdict verdict;
   for (const Outcome outcome : GetParam().checks) verdict.checks.push_back(check("c", outcome, 0.0));
-  conclude(verdict, GetParam().promises);
+  conclude(verdict, GetParam().flaws);
   EXPECT_EQ(name_of(verdict.outcome), name_of(GetParam().expected));
   EXPECT_EQ(exit_code(verdict.outcome), GetParam().exit_code);
   EXPECT_EQ(verdict.reasons.empty(), GetParam().expected == Outcome::kPass);
@@ -63,7 +63,9 @@ INSTANTIATE_TEST_SUITE_P(
         OutcomeCase{"FailThenOpen", {Outcome::kFail, Outcome::kInconclusive}, {}, Outcome::kFail, 1},
         OutcomeCase{"OpenThenFail", {Outcome::kInconclusive, Outcome::kFail}, {}, Outcome::kFail, 1},
         OutcomeCase{"NoChecks", {}, {}, Outcome::kInconclusive, 5},
-        OutcomeCase{"Invalid", {Outcome::kFail}, {"the plant diverged"}, Outcome::kInvalid, 5}),
+        OutcomeCase{"Gap", {Outcome::kPass}, {{}, {"it never flew"}}, Outcome::kInconclusive, 5},
+        OutcomeCase{"FailWithAGap", {Outcome::kFail}, {{}, {"it never flew"}}, Outcome::kFail, 1},
+        OutcomeCase{"Invalid", {Outcome::kFail}, {{"the plant diverged"}, {}}, Outcome::kInvalid, 5}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST(VerdictJsonTest, HasItsKeysInTheAgreedOrder) {
@@ -191,6 +193,17 @@ TEST(VerdictLinesTest, SaysOneThingPerLine) {
             "three_waypoints: pass: a: margin +0.1 m: found a\n"
             "three_waypoints: fail: long name: margin -2 m: found long name\n"
             "three_waypoints: fail\n");
+}
+
+TEST(VerdictTest, SaysUnderTheTableWhatNoCheckSays) {
+  Verdict verdict = example();
+  conclude(verdict, {{}, {"the gust never came", "nor did the rain"}});
+  EXPECT_EQ(reasons_of_the_run(verdict_from_json(to_json(verdict))),
+            (std::vector<std::string>{"the gust never came", "nor did the rain"}));
+  EXPECT_TRUE(verdict_table(verdict, false)
+                  .ends_with("fail: 1 of 2 checks hold\n  the gust never came\n  nor did the rain\n"));
+  EXPECT_TRUE(
+      verdict_lines(verdict).ends_with("three_waypoints: fail: the gust never came; nor did the rain\n"));
 }
 
 TEST(VerdictLinesTest, PutsWarningsBehindTheVerdict) {

@@ -1,0 +1,96 @@
+// Runs in which what the scenario says did not happen, seen from outside: they are no pass.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "scenarios/app/test/program.hpp"
+
+namespace ironbird::scenarios {
+namespace {
+
+const std::string kMission =
+    "duration = \"8 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n"
+    "[[check]]\nname = \"stays upright\"\nsignal = \"truth.roll\"\nstays_within = { low = \"-30 deg\", high "
+    "= "
+    "\"30 deg\" }\n";
+const std::string kLate = "[[event]]\nname = \"late\"\nafter = \"lost\"\nrequest = \"land\"\n";
+
+class ShownNothingTest : public ::testing::Test {
+ protected:
+  Said fly(const std::string& scenario, const std::string& options = "") {
+    const std::string file = folder_.write("flight.toml", scenario);
+    return run_shell(kProgram + " run " + file + options + " --no-log --out " + folder_.text());
+  }
+  std::string verdict_file() const {
+    std::ifstream file(folder_ / "flight/verdict.json");
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+  static void expect(const Said& said, int exit_code, const std::string& words) {
+    EXPECT_EQ(said.exit_code, exit_code) << said.text;
+    EXPECT_NE(said.text.find(words), std::string::npos) << said.text;
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(ShownNothingTest, AVehicleThatNeverLeavesTheGroundDoesNotPass) {
+  expect(
+      fly(kMission, " --set pilot.take_off_at=60"), 5,
+      "flight: inconclusive: the vehicle never left the ground; if it should not, say so: none_of_events = "
+      "[\"lifted_off\"]");
+}
+
+TEST_F(ShownNothingTest, AVehicleThatLeavesTheGroundDoes) {
+  expect(fly(kMission), 0, "flight: pass\n");
+}
+
+TEST_F(ShownNothingTest, AVehicleThatShouldStayOnTheGroundPassesWhenItDoes) {
+  const std::string stays = kMission + "[[check]]\nname = \"stays\"\nnone_of_events = [\"lifted_off\"]\n";
+  expect(fly(stays, " --set pilot.take_off_at=60"), 0,
+         "flight: pass: stays: margin -: lifted_off at no time");
+  expect(fly(stays), 1, "flight: fail: stays: margin -: lifted_off at 5.4");
+}
+
+TEST_F(ShownNothingTest, AWordAboutAPartOfTheRunIsNoneAboutTheFlight) {
+  const std::string stays = kMission +
+                            "[[check]]\nname = \"stays\"\nuntil = \"2 s\"\nnone_of_events = "
+                            "[\"lifted_off\"]\n";
+  expect(fly(stays, " --set pilot.take_off_at=60"), 5, "the vehicle never left the ground");
+}
+
+TEST_F(ShownNothingTest, AnEventWhoseOccasionNeverCameLeavesNoPass) {
+  const std::string words = "event \"late\" waited for \"lost\", which never happened";
+  expect(fly(kMission + kLate), 5, "flight: inconclusive: " + words);
+  EXPECT_NE(verdict_file().find("event \\\"late\\\" waited for"), std::string::npos) << verdict_file();
+}
+
+TEST_F(ShownNothingTest, AnEventBehindTheEndLeavesNoPass) {
+  expect(fly(kMission + "[[event]]\nname = \"gust\"\nat = \"9 s\"\nfault = \"wind\"\nvector = [1, 0, 0]\n"),
+         5,
+         "event \"gust\" was due at 9 s, after the end of the run; if it need not come, say so: optional = "
+         "true");
+}
+
+TEST_F(ShownNothingTest, AnEventThatNeedNotComeDoesNotMatter) {
+  expect(fly(kMission + kLate + "optional = true\n"), 0, "flight: pass\n");
+}
+
+TEST_F(ShownNothingTest, AFailureStaysAFailure) {
+  expect(fly(kMission + kLate, " --set check[0].stays_within.high='\"-20 deg\"'"), 1,
+         "flight: fail: event \"late\" waited");
+}
+
+TEST_F(ShownNothingTest, APictureNotTakenAndAnEndThatWasWaitedForAreWarnings) {
+  const Said said =
+      fly("end_after = \"landed\"\n" + kMission + "[[snapshot]]\nname = \"down\"\nafter = \"landed\"\n");
+  expect(said, 0,
+         "flight: warning: snapshot \"down\" waited for \"landed\", which never happened: not taken\n");
+  expect(said, 0, "flight: warning: the end of the run waited for \"landed\", which never happened\n");
+  EXPECT_NE(verdict_file().find("snapshot \\\"down\\\" waited for"), std::string::npos) << verdict_file();
+}
+
+}  // namespace
+}  // namespace ironbird::scenarios
