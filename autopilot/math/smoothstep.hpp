@@ -14,6 +14,7 @@ struct Smoothstep {
 
   static constexpr double kPeakFirst = 1.875;                ///< at tau = 1/2
   static constexpr double kPeakSecond = 5.7735026918962576;  ///< 10/sqrt(3), at tau = 1/2 -+ sqrt(3)/6
+  static constexpr double kPeakThird = 60.0;                 ///< at both ends; 60 (1 - 6 tau + 6 tau^2)
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -30,14 +31,17 @@ constexpr Smoothstep smoothstep(double tau) {
           60.0 * t * (1.0 + t * (2.0 * t - 3.0))};
 }
 
-/// The shortest time in which a smooth step covers `distance` within both limits, s; 0 when there is no
+/// The shortest time in which a smooth step covers `distance` within all limits, s; 0 when there is no
 /// distance.
 /// @param distance  m or rad, >= 0
 /// @param max_rate  m/s or rad/s, > 0
 /// @param max_acceleration  m/s^2 or rad/s^2, > 0
-inline double smoothstep_duration(double distance, double max_rate, double max_acceleration) {
-  return std::max(Smoothstep::kPeakFirst * distance / max_rate,
-                  std::sqrt(Smoothstep::kPeakSecond * distance / max_acceleration));
+/// @param rise_time  in which the acceleration may grow to its greatest, s, >= 0; bounds the jerk
+inline double smoothstep_duration(double distance, double max_rate, double max_acceleration,
+                                  double rise_time) {
+  return std::max({Smoothstep::kPeakFirst * distance / max_rate,
+                   std::sqrt(Smoothstep::kPeakSecond * distance / max_acceleration),
+                   std::cbrt(Smoothstep::kPeakThird * distance * rise_time / max_acceleration)});
 }
 
 }  // namespace ironbird::autopilot

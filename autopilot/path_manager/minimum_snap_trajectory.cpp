@@ -5,8 +5,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "autopilot/math/smoothstep.hpp"
-
 namespace ironbird::autopilot {
 
 namespace {
@@ -152,10 +150,7 @@ void MinimumSnapTrajectory::lay_out(const MotionLimits& limits) {
 
 double MinimumSnapTrajectory::usual_duration(std::size_t leg, const MotionLimits& limits) const {
   const Knot way = places_[leg + 1] - places_[leg];
-  const double speed = std::min(max_speeds_[leg], limits.max_velocity);
-  return std::max(
-      smoothstep_duration(way.head<3>().norm(), speed, limits.max_acceleration),
-      smoothstep_duration(std::abs(way(3)), limits.max_heading_rate, limits.max_heading_acceleration));
+  return leg_duration(way.head<3>().norm(), std::abs(way(3)), max_speeds_[leg], limits);
 }
 
 void MinimumSnapTrajectory::fit() {
@@ -252,14 +247,27 @@ void MinimumSnapTrajectory::fill_coefficients() {
 double MinimumSnapTrajectory::excess(std::size_t i, const MotionLimits& limits) const {
   const double speed = std::min(max_speeds_[leg_of_[i]], limits.max_velocity);
   double most = 0.0;
+  double most_jerk = 0.0;  // in greatest accelerations a second
   for (int sample = 0; sample <= kSamplesPerSegment; ++sample) {
     const double share = static_cast<double>(sample) / kSamplesPerSegment;
     const MotionPoint point = evaluate(ends_[i] + share * duration_of(i));
+    const Knot jerk = jerk_at(i, share);
+    most_jerk = std::max({most_jerk, jerk.head<3>().norm() / limits.max_acceleration,
+                          std::abs(jerk(3)) / limits.max_heading_acceleration});
     most = std::max({most, point.v_N.norm() / speed, std::sqrt(point.a_N.norm() / limits.max_acceleration),
                      std::abs(point.heading_rate) / limits.max_heading_rate,
                      std::sqrt(std::abs(point.heading_acceleration) / limits.max_heading_acceleration)});
   }
-  return most;
+  return std::max(most, std::cbrt(most_jerk * limits.rise_time));
+}
+
+MinimumSnapTrajectory::Knot MinimumSnapTrajectory::jerk_at(std::size_t i, double tau) const {
+  const Coefficients& c = coefficients_[i];
+  const Knot in_tau =
+      6.0 * c.col(3) +
+      tau * (24.0 * c.col(4) + tau * (60.0 * c.col(5) + tau * (120.0 * c.col(6) + tau * 210.0 * c.col(7))));
+  const double duration = duration_of(i);
+  return in_tau / (duration * duration * duration);
 }
 
 // Greatest distance of segment `i` from the chord of its leg, m.

@@ -14,8 +14,8 @@ namespace ironbird::autopilot {
 /// A curve through places at unequal distances swings far out when each leg lasts what it would last alone.
 /// So the durations are balanced: shortening any of them would cost about the same snap. A leg that still
 /// strays from its chord is tied to it in the middle, then in the quarters; where that does not help the
-/// trajectory ends early. Last, all durations are stretched by one factor, so that the greatest speed or
-/// acceleration just meets its limit. Stretching does not change the path.
+/// trajectory ends early. Last, all durations are stretched by one factor, so that the greatest speed,
+/// acceleration or jerk just meets its limit. Stretching does not change the path.
 ///
 /// Source: Mellinger and Kumar, "Minimum snap trajectory generation and control for quadrotors", 2011, in the
 /// form of a block-tridiagonal system for the derivatives at the places, of fixed size: nothing is allocated.
@@ -66,6 +66,7 @@ class MinimumSnapTrajectory {
   void fill_coefficients();
   void stretch(const MotionLimits& limits);
   double excess(std::size_t i, const MotionLimits& limits) const;
+  Knot jerk_at(std::size_t i, double tau) const;
   double excursion(std::size_t i) const;
 
   std::size_t legs_ = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "autopilot/math/angles.hpp"
+#include "autopilot/math/smoothstep.hpp"
 #include "autopilot/types/linear_algebra.hpp"
 
 namespace ironbird::autopilot {
@@ -39,6 +40,7 @@ struct MotionLimits {
   double max_acceleration = 2.5;
   double max_heading_rate = 1.0;
   double max_heading_acceleration = 2.0;
+  double rise_time = 0.3;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -48,8 +50,23 @@ struct MotionLimits {
     visit("max_heading_rate", self.max_heading_rate, "rad/s", "greatest heading rate", 0.01, 1e3);
     visit("max_heading_acceleration", self.max_heading_acceleration, "rad/s^2",
           "greatest second rate of the heading", 0.01, 1e6);
+    visit("rise_time", self.rise_time, "s",
+          "time in which the acceleration, or that of the heading, may grow to its greatest: it bounds the "
+          "jerk; 0: at once",
+          0.0, 10.0);
   }
 };
+
+/// What a smooth step from rest to rest lasts at least, s.
+/// @param distance   m, >= 0
+/// @param turn       rad, >= 0
+/// @param max_speed  m/s, > 0; the least of it and the limit counts
+inline double leg_duration(double distance, double turn, double max_speed, const MotionLimits& limits) {
+  const double speed = std::min(max_speed, limits.max_velocity);
+  return std::max(
+      smoothstep_duration(distance, speed, limits.max_acceleration, limits.rise_time),
+      smoothstep_duration(turn, limits.max_heading_rate, limits.max_heading_acceleration, limits.rise_time));
+}
 
 /// Comes to rest: the velocity is a cubic in tau that begins with velocity and acceleration of the motion
 /// before and ends with none, the heading rate likewise. So position, velocity and acceleration are
@@ -57,7 +74,7 @@ struct MotionLimits {
 ///
 /// With A the greatest acceleration allowed, or that at the beginning when it is greater, it lasts no shorter
 /// than 1.5 v0/(A - a0/3), with which none is exceeded; and so long that the acceleration changes by no more
-/// than A in kRise at either end, or a short brake would jerk the vehicle about.
+/// than A in the rise time at either end, or a short brake would jerk the vehicle about.
 class Brake {
  public:
   Brake() = default;
@@ -65,9 +82,10 @@ class Brake {
   /// Begins at `from` and ends at rest as soon as the limits allow.
   Brake(const MotionPoint& from, const MotionLimits& limits)
       : from_(from),
-        duration_(std::max(shortest(from.v_N.norm(), from.a_N.norm(), limits.max_acceleration),
-                           shortest(std::abs(from.heading_rate), std::abs(from.heading_acceleration),
-                                    limits.max_heading_acceleration))) {}
+        duration_(
+            std::max(shortest(from.v_N.norm(), from.a_N.norm(), limits.max_acceleration, limits.rise_time),
+                     shortest(std::abs(from.heading_rate), std::abs(from.heading_acceleration),
+                              limits.max_heading_acceleration, limits.rise_time))) {}
 
   MotionPoint evaluate(double elapsed) const {
     const double T = duration_;
@@ -93,15 +111,14 @@ class Brake {
   double duration() const { return duration_; }
 
  private:
-  static constexpr double kRise = 0.3;  // s
-
   /// @param v0  m/s, >= 0
   /// @param a0  m/s^2, >= 0
-  static double shortest(double v0, double a0, double limit) {
+  /// @param rise  s, >= 0
+  static double shortest(double v0, double a0, double limit, double rise) {
     const double most = std::max(limit, a0);
-    const double jerk = most / kRise;
-    // 6 v0/T^2 + 4 a0/T, the greatest change of the acceleration, at the beginning
-    const double smooth = (2.0 * a0 + std::sqrt(4.0 * a0 * a0 + 6.0 * v0 * jerk)) / jerk;
+    // 6 v0/T^2 + 4 a0/T, the greatest change of the acceleration, at the beginning, is most/rise
+    const double begun = 2.0 * a0 * rise;
+    const double smooth = (begun + std::sqrt(begun * begun + 6.0 * v0 * rise * most)) / most;
     return std::max(1.5 * v0 / (most - a0 / 3.0), smooth);
   }
 

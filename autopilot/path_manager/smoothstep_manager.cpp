@@ -23,11 +23,9 @@ std::uint32_t SmoothstepManager::depart(const Departure& departure, const Route&
   start_heading_ = from_origin ? 0.0 : departure.heading;
   way_N_ = to.p_N - start_N_;
   turn_ = shortest_difference(to.heading, start_heading_);
-  const double speed = to.speed > 0.0 ? std::min(to.speed, params().max_velocity) : params().max_velocity;
+  const double speed = to.speed > 0.0 ? to.speed : params().max_velocity;
   const double distance = (to.p_N - departure.p_N).norm();
-  duration_ = std::max(
-      smoothstep_duration(distance, speed, params().max_acceleration),
-      smoothstep_duration(std::abs(turn_), params().max_heading_rate, params().max_heading_acceleration));
+  duration_ = leg_duration(distance, std::abs(turn_), speed, params());
   return first;
 }
 

@@ -42,23 +42,41 @@ TEST(SmoothstepTest, HasDerivativesThatAgreeWithCentralDifferences) {
 }
 
 TEST(SmoothstepTest, NeverExceedsTheLimitsThatItsDurationWasMadeFor) {
-  for (const double distance : {0.01, 1.0, 20.2, 500.0}) {
-    const double duration = smoothstep_duration(distance, 3.0, 2.0);
+  constexpr double kRise = 0.25;
+  constexpr double kMostJerk = 2.0 / kRise;
+  for (const double distance : {0.01, 1.0, 2.5, 20.2, 500.0}) {
+    const double duration = smoothstep_duration(distance, 3.0, 2.0, kRise);
     double peak_rate = 0.0;
     double peak_acceleration = 0.0;
+    double peak_jerk = 0.0;
+    double last = 0.0;
     for (int i = 0; i <= 10000; ++i) {
       const Smoothstep s = smoothstep(i / 10000.0);
       peak_rate = std::max(peak_rate, s.first * distance / duration);
       peak_acceleration = std::max(peak_acceleration, std::abs(s.second) * distance / (duration * duration));
+      const double jerk = 1e4 * (s.second - last) * distance / (duration * duration * duration);
+      peak_jerk = std::max(peak_jerk, std::abs(jerk));
+      last = s.second;
     }
     EXPECT_LE(peak_rate, 3.0 + 1e-12);
     EXPECT_LE(peak_acceleration, 2.0 + 1e-12);
-    EXPECT_GT(std::max(peak_rate / 3.0, peak_acceleration / 2.0), 0.999) << "one limit is met";
+    EXPECT_LE(peak_jerk, kMostJerk);
+    EXPECT_GT(std::max({peak_rate / 3.0, peak_acceleration / 2.0, peak_jerk / kMostJerk}), 0.999)
+        << "one limit is met";
   }
 }
 
+TEST(SmoothstepTest, HasItsGreatestJerkAtItsEnds) {
+  EXPECT_NEAR(smoothstep(kStep).second / kStep, Smoothstep::kPeakThird, 0.01);
+  EXPECT_NEAR(smoothstep(1.0 - kStep).second / kStep, -Smoothstep::kPeakThird, 0.01);
+}
+
+TEST(SmoothstepTest, LastsAsLongAsBeforeWhenTheAccelerationMayBeThereAtOnce) {
+  EXPECT_EQ(smoothstep_duration(0.01, 3.0, 2.0, 0.0), std::sqrt(Smoothstep::kPeakSecond * 0.01 / 2.0));
+}
+
 TEST(SmoothstepTest, NeedsNoTimeForNoDistance) {
-  EXPECT_EQ(smoothstep_duration(0.0, 3.0, 2.0), 0.0);
+  EXPECT_EQ(smoothstep_duration(0.0, 3.0, 2.0, 0.3), 0.0);
 }
 
 }  // namespace

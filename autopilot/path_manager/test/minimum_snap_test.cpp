@@ -11,6 +11,7 @@ namespace ironbird::autopilot {
 namespace {
 
 constexpr double kRoundOff = 1e-9;
+constexpr double kTick = 1e-3;     // s
 constexpr double kAnywhere = 1e3;  // m, an excursion that nothing reaches
 
 MinimumSnapTrajectory example(const MotionLimits& limits) {
@@ -124,8 +125,17 @@ TEST_P(MinimumSnapLimitsTest, AreMetButNeverExceeded) {
   const MotionLimits& limits = GetParam().limits;
   const MinimumSnapTrajectory trajectory = example(limits);
   double nearest = 0.0;
-  for (double t = 0.0; t <= trajectory.duration(); t += 1e-3) {
+  const double most_jerk = limits.max_acceleration / limits.rise_time;
+  const double most_heading_jerk = limits.max_heading_acceleration / limits.rise_time;
+  MotionPoint last = trajectory.evaluate(0.0);
+  for (double t = 0.0; t <= trajectory.duration(); t += kTick) {
     const MotionPoint point = trajectory.evaluate(t);
+    const double jerk = (point.a_N - last.a_N).norm() / kTick;
+    const double heading_jerk = std::abs(point.heading_acceleration - last.heading_acceleration) / kTick;
+    last = point;
+    ASSERT_LE(jerk, most_jerk);
+    ASSERT_LE(heading_jerk, most_heading_jerk);
+    nearest = std::max({nearest, jerk / most_jerk, heading_jerk / most_heading_jerk});
     ASSERT_LE(point.v_N.norm(), limits.max_velocity);
     ASSERT_LE(point.a_N.norm(), limits.max_acceleration);
     ASSERT_LE(std::abs(point.heading_rate), limits.max_heading_rate);
@@ -146,7 +156,9 @@ INSTANTIATE_TEST_SUITE_P(Cases, MinimumSnapLimitsTest,
                          ::testing::Values(LimitCase{"Usual", {}}, LimitCase{"Slow", {0.2, 2.0, 1.0, 2.0}},
                                            LimitCase{"Soft", {50.0, 0.05, 1e3, 1e6}},
                                            LimitCase{"SlowTurns", {50.0, 50.0, 0.1, 2.0}},
-                                           LimitCase{"SoftTurns", {50.0, 50.0, 50.0, 0.01}}),
+                                           LimitCase{"SoftTurns", {50.0, 50.0, 50.0, 0.01}},
+                                           LimitCase{"Gentle", {50.0, 2.5, 50.0, 2.0, 3.0}},
+                                           LimitCase{"GentleTurns", {50.0, 50.0, 50.0, 2.0, 3.0}}),
                          [](const auto& case_) { return case_.param.name; });
 
 TEST(MinimumSnapTrajectoryTest, SolvesAsManyLegsAsItHolds) {
