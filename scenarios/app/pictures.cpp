@@ -23,10 +23,17 @@ struct SnapshotArguments {
   std::string out = "snapshots";
 };
 
+/// Reads the log of a run, and says what it no longer tells.
+Log read_log(const std::string& file, TerminalListener& listener) {
+  Log log = Log::read(file);
+  if (const std::string lost = what_is_lost(log); !lost.empty()) listener.note(file + ": warning: " + lost);
+  return log;
+}
+
 int video(const VideoArguments& arguments) {
   note_interrupts();
-  const Log log = Log::read(arguments.log);
   TerminalListener listener(Terminal::of_standard_error());
+  const Log log = read_log(arguments.log, listener);
   const bool whole =
       make_video(log, scene_of(log, arguments.log), arguments.out, arguments.preview, listener);
   if (whole) listener.note(arguments.out);
@@ -34,8 +41,8 @@ int video(const VideoArguments& arguments) {
 }
 
 int snapshot(const SnapshotArguments& arguments) {
-  const Log log = Log::read(arguments.log);
   TerminalListener listener(Terminal::of_standard_error());
+  const Log log = read_log(arguments.log, listener);
   for (const auto& file : make_snapshots(log, scene_of(log, arguments.log), arguments.out, listener)) {
     listener.note(file.string());
   }

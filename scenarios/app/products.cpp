@@ -7,6 +7,7 @@
 #include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/config/include.hpp"
 #include "scenarios/config/toml_reader.hpp"
+#include "scenarios/config/write_file.hpp"
 #include "scenarios/report/report.hpp"
 #include "scenarios/video/film.hpp"
 #include "scenarios/video/png.hpp"
@@ -51,6 +52,8 @@ FilmOptions film_options(const PicturePlan& plan, const SceneFiles& scene) {
 
 PicturePlan picture_plan(const Log& log) {
   const auto run = log.metadata().find("run");
+  if (run == log.metadata().end() && log.truncated())
+    throw ConfigError("the log was cut short before its scenario: nothing can be drawn from it");
   if (run == log.metadata().end() || !run->second.contains("config")) {
     throw ConfigError("the log does not hold its scenario: it was not written by `ironbird run`");
   }
@@ -84,6 +87,7 @@ std::vector<std::filesystem::path> make_snapshots(const Log& log, const SceneFil
                                                   const std::filesystem::path& folder,
                                                   RunListener& listener) {
   const PicturePlan plan = picture_plan(log);
+  if (plan.snapshots.empty()) listener.note("no picture was taken: the scenario has no [[snapshot]]");
   std::vector<std::filesystem::path> files;
   for (const SnapshotConfig& snapshot : plan.snapshots) {
     const double time = time_of_snapshot(log, snapshot.name);
@@ -95,7 +99,7 @@ std::vector<std::filesystem::path> make_snapshots(const Log& log, const SceneFil
     options.quality = simulator::Quality::kStill;
     options.cuts = {{0.0, snapshot.camera}};
     const FilmScript script = film_script(log, options);
-    std::filesystem::create_directories(folder);
+    make_folder(folder);
     files.push_back(folder / (snapshot.name + ".png"));
     write_png(stills(script, {frame_at(script, time)}).front(), files.back());
   }

@@ -25,6 +25,8 @@ int report(const ReportArguments& arguments) {
     const std::filesystem::path folder = log.parent_path();
     runs.push_back(ReportRun::read(folder.empty() ? log.stem().string() : folder.filename().string(), log,
                                    folder / "verdict.json"));
+    for (const std::string& note : runs.back().notes())
+      std::fprintf(stderr, "%s: warning: %s\n", file.c_str(), note.c_str());
   }
   write_report(runs, arguments.out);
   std::fprintf(stderr, "%s\n", arguments.out.c_str());

@@ -11,19 +11,12 @@
 #include "scenarios/app/products.hpp"
 #include "scenarios/app/scene.hpp"
 #include "scenarios/bench/bench.hpp"
+#include "scenarios/config/write_file.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw ConfigError(folder.string() + ": cannot make the output folder: " + error.message() +
-                      "; choose another with --out");
-}
 
 Verdict fly(const RunJob& job, const autopilot::Modules& modules, RunListener& listener, bool& interrupted) {
   const auto start = std::chrono::steady_clock::now();

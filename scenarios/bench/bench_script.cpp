@@ -57,6 +57,18 @@ bool forbids_flight(const CheckConfig& check) {
                      [&](const std::string& name) { return name == kLiftedOff || name == in_full; });
 }
 
+constexpr std::string_view kRefused = "refused";
+
+/// Names a refusal, or any.
+bool expects_refusal(const CheckConfig& check) {
+  const auto is_refusal = [](const std::string& event) { return event.starts_with(kRefused); };
+  const auto names_one = [&](const std::optional<std::vector<std::string>>& events) {
+    return events && std::any_of(events->begin(), events->end(), is_refusal);
+  };
+  return names_one(check.order_of_events) || names_one(check.none_of_events) || is_refusal(check.after) ||
+         is_refusal(check.until);
+}
+
 std::string why_left(const Script::Left& left) {
   if (!left.due) return " waited for \"" + left.after + "\", which never happened";
   return " was due at " + with_unit(to_seconds(*left.due), "s") + ", after the end of the run";
@@ -177,7 +189,7 @@ bool Bench::ask(const autopilot::Request& request, const std::string& what, Time
       throw std::invalid_argument("waypoint: the planner refuses the route: " + outcome.reason);
     return true;
   }
-  judge_->event(now, outcome.accepted ? "request" : "refused",
+  judge_->event(now, outcome.accepted ? "request" : std::string(kRefused),
                 outcome.accepted ? what : what + ": " + outcome.reason);
   for (std::size_t i = 0; i < outcome.waypoints.size(); ++i)
     judge_->event(now, "answer", line_about(outcome.waypoints[i], i));
@@ -214,6 +226,13 @@ std::vector<std::string> Bench::gaps() const {
     if (deed.kind == Deed::Kind::kEvent && !scenario_.events[deed.index].optional)
       gaps.push_back(name_of(deed) + why_left(left) + "; if it need not come, say so: optional = true");
   }
+  if (std::any_of(checks.begin(), checks.end(), expects_refusal)) return gaps;
+  for (const RunEvent& event : seen) {
+    if (event.kind != kRefused) continue;
+    gaps.push_back("request at " + with_unit(event.time, "s") + " was refused: " + event.text +
+                   "; if it should be, let a check name it: order_of_events = [\"" + std::string(kRefused) +
+                   "\"]");
+  }
   return gaps;
 }
 
@@ -225,11 +244,6 @@ std::vector<std::string> Bench::warnings() const {
     if (deed.kind == Deed::Kind::kSnapshot)
       warnings.push_back(name_of(deed) + why_left(left) + ": not taken");
     if (is_end && !left.due) warnings.push_back(name_of(deed) + why_left(left));
-  }
-  for (const RunEvent& event : judge_->events()) {
-    if (event.kind == "refused") {
-      warnings.push_back("request at " + with_unit(event.time, "s") + " was refused: " + event.text);
-    }
   }
   return warnings;
 }

@@ -25,6 +25,13 @@ inline std::string with_remedy(std::string message) {
   return message;
 }
 
+/// Finds out before the work that a file could not be written: it is a folder, its folder is not there or
+/// takes no file. @throws UserError naming it, the reason and what helps
+void check_writable(const std::filesystem::path& file);
+
+/// Makes a folder for results, and those above it. @throws UserError naming it, the reason and what helps
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes a file whole or not at all: what was there before stays until the new one is complete. @throws
 /// UserError naming it, the reason and what helps
 void write_file(const std::filesystem::path& file, std::string_view text);

@@ -1,6 +1,8 @@
 #include "scenarios/record/log.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <stdexcept>
 
 #include "scenarios/config/user_error.hpp"
@@ -96,6 +98,28 @@ const std::map<std::string, std::map<std::string, std::string>>& Log::metadata()
 
 bool Log::truncated() const {
   return contents_->reader.truncated();
+}
+
+std::optional<double> Log::end() const {
+  std::optional<double> end;
+  for (const McapMessage& message : contents_->reader.messages())
+    end = std::max(end.value_or(0.0), static_cast<double>(message.log_time) / 1e9);
+  return end;
+}
+
+std::string what_is_lost(const Log& log, std::optional<double> flown) {
+  if (!log.truncated()) return "";
+  const std::optional<double> end = log.end();
+  if (!end) return "the log was cut short before its first message: nothing of the flight is in it";
+  std::array<char, 120> text{};
+  if (flown && *flown > *end) {
+    std::snprintf(text.data(), text.size(),
+                  "the log was cut short at %.4g s of %.4g s: the last %.4g s are lost", *end, *flown,
+                  *flown - *end);
+  } else {
+    std::snprintf(text.data(), text.size(), "the log was cut short at %.4g s: what came after is lost", *end);
+  }
+  return text.data();
 }
 
 }  // namespace ironbird::scenarios

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,10 +65,17 @@ class Log {
   /// True when the file ended without its closing records.
   bool truncated() const;
 
+  /// When its last message was written, s since the start of the run; nothing when it holds none.
+  std::optional<double> end() const;
+
  private:
   struct Contents;
   explicit Log(std::unique_ptr<Contents> contents);
   std::unique_ptr<Contents> contents_;
 };
+
+/// What a log that was cut short no longer tells; empty when it is whole.
+/// @param flown  how long the run was, s; nothing when nobody knows
+std::string what_is_lost(const Log& log, std::optional<double> flown = std::nullopt);
 
 }  // namespace ironbird::scenarios

@@ -3,8 +3,11 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/byte_cursor.hpp"
@@ -57,9 +60,16 @@ McapMessage read_message(ByteCursor& cursor) {
 }  // namespace
 
 McapReader::McapReader(const std::filesystem::path& file) : path_(file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw UserError(file.string() + ": cannot be opened: it is a folder; name the log in it");
+  errno = 0;
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
   if (!stream || !std::filesystem::is_regular_file(file)) {
-    throw UserError(file.string() + ": cannot be opened");
+    throw UserError(file.string() + ": cannot be opened: " +
+                    (errno == ENOENT ? "there is no such file"
+                     : errno == 0    ? "it is no file"
+                                     : std::strerror(errno)));
   }
   bytes_.resize(static_cast<std::size_t>(stream.tellg()));
   stream.seekg(0);

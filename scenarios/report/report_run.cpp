@@ -1,6 +1,7 @@
 #include "scenarios/report/report_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scenarios/requirements/verdict_json.hpp"
 
@@ -16,7 +17,25 @@ ReportRun ReportRun::read(std::string label, const std::filesystem::path& log_fi
                           const std::filesystem::path& verdict_file) {
   std::optional<Verdict> verdict;
   if (std::filesystem::exists(verdict_file)) verdict = read_verdict(verdict_file);
-  return ReportRun(std::move(label), Log::read(log_file), std::move(verdict));
+  ReportRun run(std::move(label), Log::read(log_file), std::move(verdict));
+  const std::string digest = run.about("digest");
+  if (run.verdict_ && !digest.empty() && digest != run.verdict_->run.digest) {
+    run.verdict_.reset();
+    run.strange_verdict_ = true;
+  }
+  return run;
+}
+
+std::vector<std::string> ReportRun::notes() const {
+  std::vector<std::string> notes;
+  std::optional<double> flown;
+  for (const Metric& metric : verdict_ ? verdict_->metrics : std::vector<Metric>()) {
+    if (metric.name == kSimulatedTime && std::isfinite(metric.value)) flown = metric.value;
+  }
+  if (const std::string lost = what_is_lost(log_, flown); !lost.empty()) notes.push_back(lost);
+  if (strange_verdict_)
+    notes.emplace_back("the verdict.json beside the log is of another run and is not shown");
+  return notes;
 }
 
 const std::vector<double>& ReportRun::time(std::string_view topic) const {

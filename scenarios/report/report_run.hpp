@@ -17,8 +17,8 @@ class ReportRun {
   ReportRun(std::string label, Log log, std::optional<Verdict> verdict)
       : label_(std::move(label)), log_(std::move(log)), verdict_(std::move(verdict)) {}
 
-  /// Reads a log and, when the file is there, a verdict. @throws std::runtime_error naming what cannot be
-  /// read
+  /// Reads a log and, when the file is there and is of the same run, a verdict. @throws std::runtime_error
+  /// naming what cannot be read
   static ReportRun read(std::string label, const std::filesystem::path& log_file,
                         const std::filesystem::path& verdict_file);
 
@@ -35,6 +35,10 @@ class ReportRun {
   /// An entry of the metadata record "run"; empty when there is none.
   std::string about(std::string_view key) const;
 
+  /// What to know before one believes what is shown, one line each: a log that was cut short, a verdict of
+  /// another run beside it.
+  std::vector<std::string> notes() const;
+
   /// What happened: the verdict's events, or those of the log, in order of time.
   std::vector<RunEvent> events() const;
 
@@ -42,6 +46,7 @@ class ReportRun {
   std::string label_;
   Log log_;
   std::optional<Verdict> verdict_;
+  bool strange_verdict_ = false;  // the one beside the log is of another run
 };
 
 }  // namespace ironbird::scenarios

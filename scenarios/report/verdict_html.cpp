@@ -116,11 +116,8 @@ std::string verdict_section(const ReportRun& run) {
   std::string out = "<section class=\"verdict " + (judged ? word : "inconclusive") + "\">";
   out += "<div class=\"stamp\">" + escaped(word) + "</div><div class=\"words\"><h1>" + heading_of_run(run) +
          "</h1>";
-  out +=
-      element("p", "summary", judged ? summary_line(*run.verdict()) : "There is no verdict beside this log.");
-  if (run.log().truncated())
-    out +=
-        element("p", "warning", "The log ends without its closing records: what follows is what was saved.");
+  out += element("p", "summary", judged ? summary_line(*run.verdict()) : "There is no verdict of this log.");
+  for (const std::string& note : run.notes()) out += element("p", "warning", escaped(note));
   if (judged) out += reasons_list(*run.verdict());
   out += identity(run) + "</div></section>";
   return judged ? out + tiles(*run.verdict()) : out;

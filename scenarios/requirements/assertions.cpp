@@ -58,6 +58,9 @@ Subject subject_of(const CheckConfig& config, const SignalTable& table) {
     throw std::invalid_argument("needs either signal or error, has both");
   if (!config.signal.empty()) return Subject(find(table, config.signal, "signal"));
   if (config.error.size() != 2) throw std::invalid_argument("needs a signal, or an error of two signals");
+  if (config.error[0] == config.error[1])
+    throw std::invalid_argument("error: both signals are " + config.error[0] +
+                                ", whose difference is always 0");
   const Signal first = find(table, config.error[0], "error[0]");
   const Signal second = find(table, config.error[1], "error[1]");
   try {

@@ -7,13 +7,30 @@
 
 namespace ironbird::scenarios {
 
+namespace {
+
+/// What a check without a name is called: its kind, and what it is about.
+std::string name_of(const std::string& kind, const CheckConfig& config) {
+  std::string about = config.signal.empty() ? config.metric : config.signal;
+  for (const std::string& signal : config.error) about += (about.empty() ? "" : " - ") + signal;
+  if (config.happens) about = *config.happens;
+  if (config.never_happens) about = *config.never_happens;
+  for (const auto* events : {&config.order_of_events, &config.none_of_events}) {
+    for (const std::string& event : *events ? **events : std::vector<std::string>())
+      about += (about.empty() ? "" : ", ") + event;
+  }
+  return kind + " " + about;
+}
+
+}  // namespace
+
 Check::Check(const CheckConfig& config, const CheckContext& context) : name_(config.name) {
   if (context.signals == nullptr) throw std::invalid_argument("checks need a table of signals");
   if (!(context.tick > 0.0)) throw std::invalid_argument("checks need a tick > 0 s");
   kind_ = kind_of(config);
   window_ = Window(config.after, config.until);
   assertion_ = make_assertion(kind_, config, context);
-  if (name_.empty()) name_ = kind_ + " " + (config.signal.empty() ? config.metric : config.signal);
+  if (name_.empty()) name_ = name_of(kind_, config);
 }
 
 CheckResult Check::result(const RunFacts& facts) const {

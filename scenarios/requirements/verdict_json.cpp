@@ -128,7 +128,7 @@ Verdict read_verdict(const std::filesystem::path& file) {
   try {
     return verdict_from_json(text.str());
   } catch (const std::invalid_argument& error) {
-    throw UserError(file.string() + ": " + error.what());
+    throw UserError(file.string() + ": " + error.what() + "; move it away to see the log without a verdict");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
 #include "scenarios/video/frame_workers.hpp"
 
 namespace ironbird::scenarios {
@@ -83,6 +84,7 @@ bool film(const FilmScript& script, VideoSink& sink, int workers, const FilmProg
 bool film_to_file(const FilmScript& script, const std::filesystem::path& file, int workers,
                   const FilmProgress& progress) {
   check(script);
+  check_writable(file);
   std::unique_ptr<VideoSink> sink;
   if (file.extension() == ".mp4") {
     sink = make_mp4_sink(file, script.format(), preset(script.renderer.quality));

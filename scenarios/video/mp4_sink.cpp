@@ -49,6 +49,7 @@ class Mp4Sink final : public VideoSink {
   Mp4Sink(const std::filesystem::path& file, const VideoFormat& format, const std::string& preset,
           const std::string& program)
       : program_(program), file_(file), part_(file.string() + ".part"), complaints_(file.string() + ".log") {
+    check_writable(file_);  // a folder that takes no file would look like a program that cannot be started
     start(arguments(format, preset));
   }
 
@@ -122,11 +123,11 @@ class Mp4Sink final : public VideoSink {
       ::close(input_);
       std::error_code ignored;
       std::filesystem::remove(complaints_, ignored);
-      const bool missing =
-          error == ENOENT && std::filesystem::exists(file_.parent_path().empty() ? "." : file_.parent_path());
       throw UserError(file_.string() + ": " +
-                      (missing ? "the program '" + program_ + "' is needed for films and was not found"
-                               : "cannot start '" + program_ + "': " + std::strerror(error)));
+                      (error == ENOENT ? "the program '" + program_ +
+                                             "' is needed for films and was not found; install it, or name "
+                                             "a .y4m file, which needs none"
+                                       : "cannot start '" + program_ + "': " + std::strerror(error)));
     }
   }
 

@@ -101,7 +101,10 @@ TEST_F(ManyRunsTest, AJunitFileThatCannotBeWrittenIsNoticedBeforeTheFlight) {
   const Said said =
       run_shell(kProgram + " run " + good_ + " --out " + out_ + " --junit /nonexistent/junit.xml");
   EXPECT_EQ(said.exit_code, 2);
-  EXPECT_EQ(said.text, "/nonexistent/junit.xml: cannot be written: No such file or directory\n");
+  EXPECT_EQ(
+      said.text,
+      "/nonexistent/junit.xml: cannot be written: there is no folder /nonexistent; make it, or name another "
+      "place on the command line\n");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 

@@ -78,6 +78,13 @@ TEST_F(ShownNothingTest, AnEventThatNeedNotComeDoesNotMatter) {
   expect(fly(kMission + kLate + "optional = true\n"), 0, "flight: pass\n");
 }
 
+TEST_F(ShownNothingTest, ARefusedRequestLeavesNoPass) {
+  const std::string asks = kMission + "[[event]]\nat = \"7 s\"\nrequest = \"resume\"\n";
+  expect(fly(asks), 5, "flight: inconclusive: request at 7 s was refused: resume: it is neither");
+  const std::string named = asks + "[[check]]\nname = \"refuses\"\norder_of_events = [\"refused\"]\n";
+  expect(fly(named), 0, "flight: pass\n");
+}
+
 TEST_F(ShownNothingTest, AFailureStaysAFailure) {
   expect(fly(kMission + kLate, " --set check[0].stays_within.high='\"-20 deg\"'"), 1,
          "flight: fail: event \"late\" waited");

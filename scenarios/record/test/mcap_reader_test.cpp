@@ -156,7 +156,7 @@ TEST(McapReaderTest, NamesAFileThatIsMissing) {
     McapReader reader("/nowhere/flight.mcap");
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "/nowhere/flight.mcap: cannot be opened");
+    EXPECT_STREQ(error.what(), "/nowhere/flight.mcap: cannot be opened: there is no such file");
   }
 }
 

@@ -184,6 +184,20 @@ TEST_F(CheckTest, OrderOfEventsUsesEachEventOnce) {
   EXPECT_THAT(twice.explanation, testing::HasSubstr("not once more"));
 }
 
+TEST_F(CheckTest, IsCalledByWhatItIsAboutWithoutAName) {
+  const auto nothing = [](double) {};
+  EXPECT_EQ(run("happens = 'truth.in_contact'", nothing).name, "happens truth.in_contact");
+  EXPECT_EQ(run("none_of_events = ['crashed', 'landed']", nothing).name, "none_of_events crashed, landed");
+  EXPECT_EQ(run("error = ['truth.p_NB_N.x', 'truth.p_NB_N.y']\nrms_below = '1 m'", nothing).name,
+            "rms_below truth.p_NB_N.x - truth.p_NB_N.y");
+  EXPECT_EQ(run("signal = 'truth.p_NB_N'\nrms_below = '1 m'", nothing).name, "rms_below truth.p_NB_N");
+}
+
+TEST_F(CheckTest, RefusesTheErrorOfASignalAgainstItself) {
+  EXPECT_THAT(refusal("error = ['truth.p_NB_N', 'truth.p_NB_N']\nrms_below = '1 m'"),
+              testing::HasSubstr("both signals are truth.p_NB_N, whose difference is always 0"));
+}
+
 TEST_F(CheckTest, NoneOfEventsFailsAtTheFirstOfThem) {
   const auto nothing = [](double) {};
   script_ = {{3.0, "ground", "crashed"}, {5.0, "ground", "landed"}};
