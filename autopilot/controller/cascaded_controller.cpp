@@ -107,8 +107,7 @@ void CascadedController::note_lift(const FcuCommand& command, const StateEstimat
   const double height = memory().launch_N.z() - estimate.p_NB_N.z();
   if (direct == nullptr || direct->thrust <= 0.0 || status.overridden() || std::abs(height) < kOffGround)
     return;
-  const double upright = (estimate.q_NB * Vector3::UnitZ()).z();
-  const double lift = direct->thrust * upright / (params().mass * params().gravity);
+  const double lift = direct->thrust * estimate.upright() / (params().mass * params().gravity);
   double& known = notebook().lift;
   known = std::clamp(known + (lift - known) * dt / (kLiftLag + dt), 1.0 / kMostMistaken, kMostMistaken);
 }
@@ -165,7 +164,7 @@ void CascadedController::watch(const StateEstimate& estimate, const FcuStatus& s
 
 bool CascadedController::rests_with_pilot(const StateEstimate& estimate) const {
   const bool low = memory().launched && std::abs(memory().launch_N.z() - estimate.p_NB_N.z()) < kLow;
-  return rest_.rests(estimate.stamp, low, params());
+  return rest_.rests(estimate.stamp, low || upright_.lies(estimate.stamp), params());
 }
 
 bool CascadedController::take_off_wanted(const ControlSetpoint& setpoint, const StateEstimate& estimate,

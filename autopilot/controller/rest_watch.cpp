@@ -7,7 +7,7 @@ namespace ironbird::autopilot {
 
 namespace {
 
-constexpr double kShortestRest = 0.3;  // s, which is enough near the height of the launch
+constexpr double kShortestRest = 0.3;  // s, which is enough where it likely lies
 // Motors that idle carry less than half of the weight, so a free vehicle falls with half of gravity or more;
 // what lies on the ground accelerates only by errors of the accelerometer and of its tilt.
 constexpr double kFalls = 3.0;           // m/s^2
@@ -57,9 +57,9 @@ void RestWatch::feel_fall(const StateEstimate& estimate, bool idle) {
   falling_.note(idle && a_down_ >= kFalls, estimate.stamp);
 }
 
-bool RestWatch::rests(Time now, bool low, const RestLimits& limits) const {
-  const auto enough = [&](double when_low) {
-    return low ? std::min(when_low, limits.rest_time) : limits.rest_time;
+bool RestWatch::rests(Time now, bool likely, const RestLimits& limits) const {
+  const auto enough = [&](double when_likely) {
+    return likely ? std::min(when_likely, limits.rest_time) : limits.rest_time;
   };
   return carried_.lasts(enough(kCarriedTime), now) || still_with_others_.lasts(enough(kShortestRest), now);
 }

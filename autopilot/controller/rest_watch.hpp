@@ -53,8 +53,8 @@ class RestWatch {
   bool may_lie() const { return may_lie_; }
 
   /// It lies on the ground and was put there by others.
-  /// @param low  near the height of the launch, where less time convinces
-  bool rests(Time now, bool low, const RestLimits& limits) const;
+  /// @param likely  it is near the height of the launch, or overturned: less time convinces
+  bool rests(Time now, bool likely, const RestLimits& limits) const;
 
   void reset();
   /// Goes on where another one stopped.

@@ -24,9 +24,10 @@ void UprightWatch::look(const StateEstimate& estimate, bool usable, bool still,
   if (blind_) out_of_control_.pass_over(now - seen_);
   blind_ = false;
   seen_ = now;
-  leans_ = (estimate.q_NB * Vector3::UnitZ()).z() < kOverturned;
+  const double upright = estimate.upright();
+  leans_ = upright < kOverturned;
   lies_.note(leans_ && still, now);
-  upright_.note(!leans_, now);
+  upright_.note(upright > kAskedUpright, now);
   const bool righted = upright_.lasts(kRightedItself, now);
   const bool expected_upright = asked && *asked > kAskedUpright;
   if (taken || !expected_upright || righted) {
@@ -43,8 +44,12 @@ void UprightWatch::forgive() {
   out_of_control_.forget();
 }
 
+bool UprightWatch::lies(Time now) const {
+  return lies_.lasts(kLiesStill, now);
+}
+
 bool UprightWatch::stops(Time now) const {
-  return given_up_ || lies_.lasts(kLiesStill, now);
+  return given_up_ || lies(now);
 }
 
 }  // namespace ironbird::autopilot

@@ -11,9 +11,9 @@ namespace ironbird::autopilot {
 ///
 /// It lies when it leans more than 60 deg and neither moves nor turns for a second: nothing that flies does.
 /// It is out of control when it is asked to lean less than 45 deg, yet began to lean more than 60 deg three
-/// seconds ago and has not been upright for half a second at a stretch since; time without an estimate does
-/// not count. Who asks for rates or torques may fly as he likes. The second stays so until the motors are
-/// disarmed or the pilot has it upright again.
+/// seconds ago and has not leant less than 45 deg for half a second at a stretch since; time without an
+/// estimate does not count. Who asks for rates or torques may fly as he likes. The second stays so until the
+/// motors are disarmed or the pilot has it upright again.
 class UprightWatch {
  public:
   /// One step.
@@ -23,6 +23,9 @@ class UprightWatch {
   /// @param taken  pilot or failsafe have the vehicle
   void look(const StateEstimate& estimate, bool usable, bool still, const std::optional<double>& asked,
             bool taken);
+
+  /// It lies on its side or back, and moves no more.
+  bool lies(Time now) const;
 
   /// The vehicle is to be given no thrust.
   bool stops(Time now) const;

@@ -74,6 +74,9 @@ struct StateEstimate {
   /// Velocity over ground in N, m/s.
   Vector3 v_NB_N() const { return q_NB * v_NB_B; }
 
+  /// Cosine of the lean, the angle from Nz to Bz.
+  double upright() const { return 1.0 - 2.0 * (q_NB.x() * q_NB.x() + q_NB.y() * q_NB.y()); }
+
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("stamp", self.stamp, "ns", "stamp of the IMU sample that the estimate belongs to");

@@ -49,6 +49,14 @@ TEST_F(UprightWatchTest, LetsAVehicleThatWasUpsetRightItself) {
   EXPECT_FALSE(stops());
 }
 
+TEST_F(UprightWatchTest, TakesNoVehicleForRightedThatLeansNearlyAsMuchAsBefore) {
+  look(1.0, 120.0, 1.0);
+  look(1.9, 55.0, 1.0);
+  EXPECT_FALSE(stops());
+  look(0.2, 55.0, 1.0);
+  EXPECT_TRUE(stops());
+}
+
 TEST_F(UprightWatchTest, CountsNoTimeInWhichItSawNothing) {
   look(2.0, 120.0, 1.0);
   usable_ = false;
@@ -143,6 +151,18 @@ TEST_F(CascadedControllerTest, DoesNotFlyAgainWithoutDisarmingAfterItTumbledToTh
   run();
   ASSERT_EQ(controller_.phase(), FlightPhase::kDisarmed);
   EXPECT_NE(refusal(FlightWish::kTakeOff).find("disarm"), std::string::npos);
+}
+
+TEST_F(CascadedControllerTest, KnowsSoonThatAnOverturnedVehicleRestsWhereverItsEstimateIs) {
+  fly_offboard();
+  // GIVEN a vehicle that lies on its back while the pilot's sticks make its motors thrash, metres below where
+  // it took off as far as the estimate knows
+  estimate_.q_NB = leaning(180.0);
+  estimate_.p_NB_N.z() = 4.0;
+  status_.rc_override = 0x001;
+  run_for(1.2);
+  EXPECT_EQ(controller_.phase(), FlightPhase::kDisarmed);
+  EXPECT_EQ(controller_.cause(), PhaseCause::kRestsWithPilot);
 }
 
 TEST_F(CascadedControllerTest, LetsAcrobaticsByRatesAndTorquesBe) {
