@@ -27,6 +27,7 @@ class DeskUnit final : public Fcu {
   void receive(std::vector<Arrival>& out) override { host_.receive(out); }
   void send(const rosflight::Message& message) override { host_.send(message); }
   FirmwareHost& host() { return host_; }
+  const FirmwareHost& host() const { return host_; }
 
  private:
   FirmwareHost host_;
