@@ -40,6 +40,10 @@ PseudoTerminal::PseudoTerminal(std::string link) : link_(std::move(link)) {
 }
 
 PseudoTerminal::~PseudoTerminal() {
+  remove_link();
+}
+
+void PseudoTerminal::remove_link() {
   std::error_code error;
   if (!link_.empty() && fs::read_symlink(link_, error) == device_) fs::remove(link_, error);
 }
@@ -70,6 +74,8 @@ bool PseudoTerminal::reopen() {
 }
 
 void PseudoTerminal::hang_up() {
+  // The device's number may be another program's terminal the moment that it is free.
+  remove_link();
   file_.close();
   other_.close();
 }

@@ -30,10 +30,11 @@ class PseudoTerminal final : public ByteStream {
   int descriptor() const override { return file_.number(); }
   std::string name() const override { return link_.empty() ? device_ : link_; }
 
-  /// As if the plug were pulled.
+  /// As if the plug were pulled: device and link are gone until `reopen`.
   void hang_up();
 
  private:
+  void remove_link();
   std::string try_open();
 
   std::string link_;

@@ -24,9 +24,19 @@ bool is_set(const char* name) {
   return value != nullptr && *value != '\0';
 }
 
-std::size_t columns_of_standard_error() {
+Terminal terminal_behind(int descriptor) {
+  const char* term = std::getenv("TERM");
+  const bool dumb = term == nullptr || std::string_view(term) == "dumb";
+  const bool watched = isatty(descriptor) != 0;
+  Terminal terminal;
+  terminal.interactive = watched && !dumb && !is_set("CI");
+  terminal.colour = watched && !dumb && !is_set("NO_COLOR");
   winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+  if (watched && ioctl(descriptor, TIOCGWINSZ, &size) == 0) {
+    terminal.columns = size.ws_col;
+    terminal.rows = size.ws_row;
+  }
+  return terminal;
 }
 
 std::string bar(double share) {
@@ -43,14 +53,11 @@ double share_of(const WorkDone& work) {
 }  // namespace
 
 Terminal Terminal::of_standard_error() {
-  const char* term = std::getenv("TERM");
-  const bool dumb = term == nullptr || std::string_view(term) == "dumb";
-  const bool watched = isatty(STDERR_FILENO) != 0;
-  Terminal terminal;
-  terminal.interactive = watched && !dumb && !is_set("CI");
-  terminal.colour = watched && !dumb && !is_set("NO_COLOR");
-  terminal.columns = watched ? columns_of_standard_error() : 0;
-  return terminal;
+  return terminal_behind(STDERR_FILENO);
+}
+
+Terminal Terminal::of_standard_output() {
+  return terminal_behind(STDOUT_FILENO);
 }
 
 std::string progress_line(const WorkDone& work, double seconds_left, std::size_t columns) {

@@ -8,14 +8,16 @@
 
 namespace ironbird::scenarios {
 
-/// How to speak to whoever reads standard error: a person at a terminal, or a log file.
+/// How to speak to whoever reads what is said: a person at a terminal, or a log file.
 struct Terminal {
   bool interactive = false;  ///< a terminal, and not CI: lines may be redrawn
   bool colour = false;       ///< NO_COLOR is not set
   std::size_t columns = 0;   ///< characters in a line; 0 when nobody knows
+  std::size_t rows = 0;      ///< lines; 0 when nobody knows
 
-  /// Asks the environment: isatty, CI, NO_COLOR, TERM, and the terminal for its width.
+  /// Asks the environment: isatty, CI, NO_COLOR, TERM, and the terminal for its size.
   static Terminal of_standard_error();
+  static Terminal of_standard_output();
 };
 
 /// Shows how far a piece of work has come and how long the rest will take. On a terminal one line is redrawn

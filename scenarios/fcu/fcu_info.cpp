@@ -21,7 +21,7 @@ struct InfoArguments {
 
 int info(const InfoArguments& arguments) {
   note_interrupts();
-  UnitOnLine unit(arguments.address);
+  UnitOnLine unit(arguments.address, UnitOnLine::Talk::kQuestions);
   unit.meet();
   unit.until(kListening, [] { return false; });
   if (interrupt_requested()) return kExitInterrupted;

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,18 +8,19 @@
 #include "hil_bridge/transport/byte_stream.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/fcu/fcu_verb.hpp"
 #include "scenarios/fcu/parameter_file.hpp"
 #include "scenarios/fcu/unit_line.hpp"
+#include "scenarios/fcu/wanted_parameters.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
 
 using hil_bridge::ParameterDifference;
-using hil_bridge::ParameterOutcome;
 using hil_bridge::ParameterRecord;
 
 constexpr int kPasses = 3;             // a value may change others: a canned mixer rewrites 220
@@ -30,7 +32,12 @@ struct ParamsArguments {
   std::string deed;
   std::vector<std::string> words;
   bool keep = false;
+  std::vector<ParameterRecord> file;  // of load, diff, verify
 };
+
+bool reads_a_file(const std::string& deed) {
+  return deed == "load" || deed == "diff" || deed == "verify";
+}
 
 std::string value_of(const std::optional<ParameterRecord>& record) {
   return record ? hil_bridge::value_text(*record) : "(none)";
@@ -100,16 +107,6 @@ std::vector<ParameterDifference> make_equal(const std::vector<ParameterRecord>& 
   return wanted_changes(file, unit);
 }
 
-int keep_in_flash(UnitOnLine& unit) {
-  hil_bridge::ParameterClient& client = unit.connection().parameters();
-  client.write_to_flash();
-  unit.until(kSetPatience, [&] { return client.write_outcome() != ParameterOutcome::kPending; });
-  if (client.write_outcome() == ParameterOutcome::kDone) return kExitPass;
-  std::fputs("the values are set, but not kept: the unit did not confirm that it wrote them to flash\n",
-             stderr);
-  return kExitHardware;
-}
-
 int set_all(const std::vector<ParameterRecord>& wanted, const ParamsArguments& arguments, UnitOnLine& unit) {
   check_fits(wanted, unit);
   const auto left = make_equal(wanted, unit);
@@ -121,7 +118,7 @@ int set_all(const std::vector<ParameterRecord>& wanted, const ParamsArguments& a
   }
   std::fprintf(stderr, "as wanted, read back from the unit: %zu parameter%s\n", wanted.size(),
                wanted.size() == 1 ? "" : "s");
-  if (arguments.keep) return keep_in_flash(unit);
+  if (arguments.keep) return unit.keep() ? kExitPass : kExitHardware;
   if (unit.connection().parameters().unsaved()) {
     std::fputs("not kept over a restart; --keep writes them to the unit's flash\n", stderr);
   }
@@ -154,7 +151,7 @@ int set(const ParamsArguments& arguments, UnitOnLine& unit) {
 }
 
 int compare(const ParamsArguments& arguments, UnitOnLine& unit, bool all) {
-  const auto file = read_parameter_file(arguments.words[0]);
+  const auto& file = arguments.file;
   const auto found = all ? hil_bridge::differences(file, unit.connection().parameters().known())
                          : wanted_changes(file, unit);
   print(found, "file", "unit");
@@ -183,7 +180,7 @@ const Deed kDeeds[] = {
     {"save", "FILE", [](std::size_t n) { return n == 1; }, save},
     {"load", "FILE", [](std::size_t n) { return n == 1; },
      [](const ParamsArguments& arguments, UnitOnLine& unit) {
-       return set_all(read_parameter_file(arguments.words[0]), arguments, unit);
+       return set_all(arguments.file, arguments, unit);
      }},
     {"diff", "FILE", [](std::size_t n) { return n == 1; },
      [](const ParamsArguments& arguments, UnitOnLine& unit) { return compare(arguments, unit, true); }},
@@ -202,12 +199,16 @@ const Deed& deed_named(const ParamsArguments& arguments) {
   throw ConfigError(arguments.deed + ": fcu params does not know this; there are: " + all);
 }
 
-int params(const ParamsArguments& arguments) {
+int params(ParamsArguments arguments, const autopilot::Modules& modules) {
   note_interrupts();
   const Deed& deed = deed_named(arguments);
   // A file that cannot be read is told before the unit is waited for.
-  const bool reads = arguments.deed == "load" || arguments.deed == "diff" || arguments.deed == "verify";
-  if (reads) read_parameter_file(arguments.words[0]);
+  if (reads_a_file(arguments.deed)) {
+    const std::filesystem::path file = arguments.words[0];
+    arguments.file = file.extension() == ".toml"
+                         ? wanted_parameters(load_scenario(file, {}, modules).scenario)
+                         : read_parameter_file(file);
+  }
   UnitOnLine unit(arguments.address);
   unit.meet();
   return deed.work(arguments, unit);
@@ -224,13 +225,16 @@ FcuWork declare_fcu_params(CLI::App& app) {
   app.footer(
       "set and load are done when the unit has said every value back; only while it is disarmed. verify "
       "looks at what\n"
-      "the file names, diff at everything. Files are YAML: - {name: NAME, type: 6 or 9, value: VALUE}\n"
+      "the file names, diff at everything. Files are YAML: - {name: NAME, type: 6 or 9, value: VALUE}; or "
+      "scenarios, for\n"
+      "the parameters that they and their vehicles name.\n"
       "Examples:\n"
       "  ironbird fcu params --port /dev/ttyACM0 get PID_ROLL_RATE_P RC_MAX_THR\n"
       "  ironbird fcu params --port /dev/ttyACM0 set RC_MAX_THR 0.9 --keep\n"
       "  ironbird fcu params --port /dev/ttyACM0 save before.yaml\n"
-      "  ironbird fcu params --port /dev/ttyACM0 verify before.yaml");
-  return [arguments](const autopilot::Modules&) { return params(*arguments); };
+      "  ironbird fcu params --port /dev/ttyACM0 verify before.yaml\n"
+      "  ironbird fcu params --port /dev/ttyACM0 load scenarios/library/paper/three_waypoints.toml --keep");
+  return [arguments](const autopilot::Modules& modules) { return params(*arguments, modules); };
 }
 
 }  // namespace ironbird::scenarios

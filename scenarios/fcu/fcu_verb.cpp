@@ -16,9 +16,12 @@ struct SubVerb {
   FcuWork (*declare)(CLI::App&);
 };
 
-constexpr std::array<SubVerb, 3> kSubVerbs = {{
+constexpr std::array<SubVerb, 6> kSubVerbs = {{
     {"info", "say what is connected, and how well", declare_fcu_info},
+    {"monitor", "watch it live; measure latencies", declare_fcu_monitor},
     {"params", "get, set, save, load, compare its parameters", declare_fcu_params},
+    {"calibrate", "calibrate its IMU, gyro, barometer, pitot tube or trim", declare_fcu_calibrate},
+    {"preflight", "list what speaks against a flight", declare_fcu_preflight},
     {"serve", "be a unit, for others to connect to", declare_fcu_serve},
 }};
 
@@ -28,13 +31,15 @@ Verb fcu_verb() {
   return {"fcu", "talk to a flight-control unit, or be one", [](CLI::App& app) -> FcuWork {
             app.require_subcommand(1);
             app.footer(
-                "No motor command ever leaves through this verb; parameters are set only while the unit says "
-                "that\n"
-                "it is disarmed.\n"
+                "No motor command ever leaves through this verb; parameters are set and calibrations ordered "
+                "only while the\n"
+                "unit says that it is disarmed.\n"
                 "Examples:\n"
                 "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --pty /tmp/unit\n"
                 "  ironbird fcu info --port /tmp/unit\n"
-                "  ironbird fcu params --port /dev/ttyACM0 save before.yaml");
+                "  ironbird fcu monitor --port /tmp/unit\n"
+                "  ironbird fcu params --port /dev/ttyACM0 save before.yaml\n"
+                "  ironbird fcu preflight --port /dev/ttyACM0 scenarios/library/paper/three_waypoints.toml");
             auto chosen = std::make_shared<FcuWork>();
             for (const SubVerb& sub : kSubVerbs) {
               CLI::App* command = app.add_subcommand(sub.name, sub.summary);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdio>
 #include <utility>
 
 #include "hil_bridge/transport/serial_port.hpp"
@@ -23,7 +24,8 @@ using hil_bridge::transport::UdpSocket;
 
 namespace {
 
-constexpr int kLook = 2;  // ms between looks at a line on which nothing happens
+constexpr double kFlashPatience = 60.0;  // s
+constexpr int kLook = 2;                 // ms between looks at a line on which nothing happens
 
 UdpConfig udp_config(const std::string& text) {
   UdpConfig config;
@@ -48,7 +50,7 @@ UdpConfig udp_config(const std::string& text) {
 }  // namespace
 
 void add_unit_address(CLI::App& app, UnitAddress& address) {
-  app.add_option("--port", address.port, "serial port of the unit, as /dev/ttyACM0");
+  app.add_option("--port,--line", address.port, "serial port of the unit, as /dev/ttyACM0");
   app.add_option("--baud", address.baud, "rate of the port, Bd")->capture_default_str();
   app.add_option("--udp", address.udp, "unit behind UDP instead, HOST[:PORT]; this side has port 14520");
   app.add_option("--patience", address.patience, "how long to wait for the unit, s")
@@ -71,8 +73,11 @@ std::unique_ptr<ByteStream> open_line(const UnitAddress& address) {
   return port;
 }
 
-UnitOnLine::UnitOnLine(const UnitAddress& address)
-    : address_(address), line_(open_line(address)), gate_({}), fcu_(*line_, {}, &gate_) {}
+UnitOnLine::UnitOnLine(const UnitAddress& address, Talk talk)
+    : address_(address),
+      line_(open_line(address)),
+      gate_({}),
+      fcu_(*line_, {}, talk == Talk::kChanges ? &gate_ : nullptr) {}
 
 hil_bridge::Time UnitOnLine::now() const {
   return std::chrono::steady_clock::now().time_since_epoch();
@@ -89,6 +94,8 @@ void UnitOnLine::step() {
   heard_.clear();
   fcu_.receive(heard_);
   messages_ += heard_.size();
+  if (!ear_) return;
+  for (const hil_bridge::Arrival& arrival : heard_) ear_(arrival);
 }
 
 bool UnitOnLine::until(double seconds, const std::function<bool()>& done) {
@@ -125,6 +132,16 @@ void UnitOnLine::meet() {
   throw LinkError(where + "it is heard, but in " + std::to_string(static_cast<int>(address_.patience)) +
                   " s it told " + (connection.version().empty() ? "no version and " : "its version and ") +
                   std::to_string(progress.known) + " of its parameters; try again with a greater --patience");
+}
+
+bool UnitOnLine::keep() {
+  hil_bridge::ParameterClient& client = connection().parameters();
+  client.write_to_flash();
+  until(kFlashPatience, [&] { return client.write_outcome() != hil_bridge::ParameterOutcome::kPending; });
+  if (client.write_outcome() == hil_bridge::ParameterOutcome::kDone) return true;
+  std::fputs("the values are set, but not kept: the unit did not confirm that it wrote them to flash\n",
+             stderr);
+  return false;
 }
 
 }  // namespace ironbird::scenarios

@@ -3,6 +3,8 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "hil_bridge/interlock/interlock.hpp"
 #include "hil_bridge/serial_fcu/serial_fcu.hpp"
@@ -32,29 +34,44 @@ std::unique_ptr<hil_bridge::transport::ByteStream> open_line(const UnitAddress& 
 /// leaves.
 class UnitOnLine {
  public:
+  enum class Talk {
+    kQuestions,  ///< nothing else leaves
+    kChanges     ///< parameters and calibrations too, while it reports that it is disarmed
+  };
+
   /// @throws as open_line
-  explicit UnitOnLine(const UnitAddress& address);
+  explicit UnitOnLine(const UnitAddress& address, Talk talk = Talk::kChanges);
+
+  /// Who hears every message from now on.
+  void listen(std::function<void(const hil_bridge::Arrival&)> ear) { ear_ = std::move(ear); }
 
   /// Talks until `done`, for at most so long, or until somebody interrupts. @return is it done?
   bool until(double seconds, const std::function<bool()>& done);
   /// Talks until version and parameters are known. @throws transport::LinkError saying what was heard instead
   void meet();
 
+  /// Has the unit write its parameters to its flash. @return did it confirm? If not, it has been said why.
+  bool keep();
+
   hil_bridge::SerialFcu& fcu() { return fcu_; }
   hil_bridge::Connection& connection() { return fcu_.connection(); }
   hil_bridge::Time now() const;
   std::string name() const { return line_->name(); }
+  bool line_up() const { return line_->is_up(); }
+  int descriptor() const { return line_->descriptor(); }
   double patience() const { return address_.patience; }
   hil_bridge::LinkHealth health() const { return fcu_.health(now()); }
 
- private:
+  /// Takes what has come and sends what is due, without waiting.
   void step();
 
+ private:
   UnitAddress address_;
   std::unique_ptr<hil_bridge::transport::ByteStream> line_;
   hil_bridge::Interlock gate_;
   hil_bridge::SerialFcu fcu_;
   std::vector<hil_bridge::Arrival> heard_;
+  std::function<void(const hil_bridge::Arrival&)> ear_;
   std::uint64_t messages_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 
 #include "hil_bridge/serial_fcu/serial_fcu.hpp"
 #include "hil_bridge/transport/link_fault.hpp"
@@ -21,15 +22,32 @@ class DeskUnit final : public Fcu {
     simulator::Readings readings;
     readings.imu = simulator::ImuReading{};
     readings.imu->taken = now;
-    readings.imu->f_B = {0.0, 0.0, -9.80665};
+    readings.imu->f_B = f_B_;
+    readings.imu->w_NB_B = w_NB_B_;
+    if (pressure_) {
+      readings.baro = simulator::BaroReading{};
+      readings.baro->taken = now;
+      readings.baro->pressure = *pressure_;
+    }
     host_.tick(readings, now);
   }
+  /// What the IMU measures from now on.
+  void feel(const simulator::Vector3& f_B, const simulator::Vector3& w_NB_B) {
+    f_B_ = f_B;
+    w_NB_B_ = w_NB_B;
+  }
+  /// What the barometer measures from now on; until then there is none.
+  void press(double pressure) { pressure_ = pressure; }
   void receive(std::vector<Arrival>& out) override { host_.receive(out); }
   void send(const rosflight::Message& message) override { host_.send(message); }
   FirmwareHost& host() { return host_; }
+  const FirmwareHost& host() const { return host_; }
 
  private:
   FirmwareHost host_;
+  simulator::Vector3 f_B_{0.0, 0.0, -9.80665};
+  simulator::Vector3 w_NB_B_ = simulator::Vector3::Zero();
+  std::optional<double> pressure_;
 };
 
 /// Loses this share of the frames of each direction, on a line of 921600 Bd.
@@ -48,8 +66,10 @@ class DeskLink {
   /// Bench time at which the unit's clock was zero.
   static constexpr Time kBooted = std::chrono::milliseconds(7300);
 
-  explicit DeskLink(double loss = 0.0, std::uint64_t seed = 1, const ConnectionConfig& connection = {})
-      : there_(pair_.far(), losing(loss), seed),
+  explicit DeskLink(double loss = 0.0, std::uint64_t seed = 1, const ConnectionConfig& connection = {},
+                    const VirtualFcuConfig& unit = {})
+      : unit_(unit),
+        there_(pair_.far(), losing(loss), seed),
         here_(pair_.near(), losing(loss), seed + 1000),
         served_(unit_, there_),
         fcu_(here_, connection, &gate_) {}
