@@ -107,14 +107,13 @@ class Flock {
     }
     const Verdict& verdict = *result.verdict;
     std::string text = count + result.name.text() + ": " + std::string(name_of(verdict.outcome)) + "\n";
-    if (verdict.outcome == Outcome::kInvalid || verdict.checks.empty()) {
-      for (const std::string& reason : verdict.reasons) text += "  " + reason + "\n";
-    }
+    for (const std::string& reason : reasons_of_the_run(verdict)) text += "  " + reason + "\n";
     for (const CheckResult& check : verdict.checks) {
       if (check.outcome == Outcome::kPass) continue;
       text +=
           "  " + std::string(name_of(check.outcome)) + ": " + check.name + ": " + check.explanation + "\n";
     }
+    for (const std::string& warning : verdict.warnings) text += "  warning: " + warning + "\n";
     std::fputs(text.c_str(), stderr);
     tell_error(result);
   }

@@ -69,6 +69,17 @@ bool expects_refusal(const CheckConfig& check) {
          is_refusal(check.until);
 }
 
+/// The take-off that the pilot asks for by himself; a vehicle that takes off when it is armed needs none.
+bool is_the_pilots_own(const RunEvent& refusal, const Scenario& scenario) {
+  const double late = refusal.time - scenario.pilot.take_off_at;
+  return scenario.pilot.automatic && refusal.text.starts_with("take_off:") &&
+         std::abs(late) <= to_seconds(scenario.fcu.tick);
+}
+
+std::string about_refusal(const RunEvent& refusal) {
+  return "request at " + with_unit(refusal.time, "s") + " was refused: " + refusal.text;
+}
+
 std::string why_left(const Script::Left& left) {
   if (!left.due) return " waited for \"" + left.after + "\", which never happened";
   return " was due at " + with_unit(to_seconds(*left.due), "s") + ", after the end of the run";
@@ -228,10 +239,10 @@ std::vector<std::string> Bench::gaps() const {
   }
   if (std::any_of(checks.begin(), checks.end(), expects_refusal)) return gaps;
   for (const RunEvent& event : seen) {
-    if (event.kind != kRefused) continue;
-    gaps.push_back("request at " + with_unit(event.time, "s") + " was refused: " + event.text +
-                   "; if it should be, let a check name it: order_of_events = [\"" + std::string(kRefused) +
-                   "\"]");
+    if (event.kind == kRefused && !is_the_pilots_own(event, scenario_)) {
+      gaps.push_back(about_refusal(event) + "; if it should be, let a check name it: order_of_events = [\"" +
+                     std::string(kRefused) + "\"]");
+    }
   }
   return gaps;
 }
@@ -244,6 +255,10 @@ std::vector<std::string> Bench::warnings() const {
     if (deed.kind == Deed::Kind::kSnapshot)
       warnings.push_back(name_of(deed) + why_left(left) + ": not taken");
     if (is_end && !left.due) warnings.push_back(name_of(deed) + why_left(left));
+  }
+  for (const RunEvent& event : judge_->events()) {
+    if (event.kind == kRefused && is_the_pilots_own(event, scenario_))
+      warnings.push_back(about_refusal(event));
   }
   return warnings;
 }

@@ -105,7 +105,11 @@ std::string event_at(const LogTopic* events, double time) {
   while (i > 0 && (kinds[i - 1] == "fcu" || kinds[i - 1] == "snapshot")) {
     --i;
   }
-  return i == 0 || time - times[i - 1] > kEventShown ? "" : events->texts("text")[i - 1];
+  if (i == 0 || time - times[i - 1] > kEventShown) return "";
+  const std::string& text = events->texts("text")[i - 1];
+  // A number says nothing without what it is of.
+  const bool is_number = !text.empty() && text[0] >= '0' && text[0] <= '9';
+  return is_number ? kinds[i - 1] + " " + text : text;
 }
 
 class Director {
@@ -118,6 +122,7 @@ class Director {
         shown_topic_(need(log, options.from_estimate ? "/autopilot/estimate" : "/truth/state")),
         shown_(shown_topic_),
         estimate_topic_(log.topic("/autopilot/estimate")),
+        health_(estimate_topic_, "health", 1.0),
         events_(log.topic("/bench/event")),
         phase_(log.topic("/autopilot/flight"), "phase", -1.0),
         reached_(log.topic("/autopilot/trajectory"), "reached", 0.0),
@@ -172,7 +177,9 @@ class Director {
     const bool flying =
         valid_.at(time) > 0.5 && phase_.at(time) == static_cast<double>(autopilot::FlightPhase::kOffboard);
     std::string line;
-    if (!options_.from_estimate && estimate_topic_ != nullptr && !estimate_topic_->time().empty()) {
+    const bool has_estimate = estimate_topic_ != nullptr && !estimate_topic_->time().empty() &&
+                              health_.at(time) != static_cast<double>(autopilot::Health::kUninitialised);
+    if (!options_.from_estimate && has_estimate) {
       frame.estimate = PoseTrack(*estimate_topic_).at(time);
       line = formatted("estimate (ghost) off %.2f m",
                        (frame.estimate->p_NB_N - frame.truth.pose.p_NB_N).norm(), 0.0);
@@ -228,6 +235,7 @@ class Director {
   const LogTopic& shown_topic_;
   PoseTrack shown_;
   const LogTopic* estimate_topic_;
+  HeldColumn health_;
   const LogTopic* events_;
   HeldColumn phase_;
   HeldColumn reached_;

@@ -85,6 +85,17 @@ TEST_F(ShownNothingTest, ARefusedRequestLeavesNoPass) {
   expect(fly(named), 0, "flight: pass\n");
 }
 
+TEST_F(ShownNothingTest, SeveralRunsSayItToo) {
+  const std::string other = folder_.write("other.toml", kMission + kLate);
+  const Said said = fly(kMission, " " + other + " --jobs 2");
+  expect(said, 5, "other: inconclusive\n  event \"late\" waited for \"lost\", which never happened");
+}
+
+TEST_F(ShownNothingTest, TheTakeOffOfAVehicleThatNeedsNoneIsNoMatter) {
+  expect(fly(kMission, " --set autopilot.controller.take_off_on_arming=true --set pilot.take_off_at=3"), 0,
+         "flight: warning: request at 3 s was refused: take_off: the vehicle is not armed\n");
+}
+
 TEST_F(ShownNothingTest, AFailureStaysAFailure) {
   expect(fly(kMission + kLate, " --set check[0].stays_within.high='\"-20 deg\"'"), 1,
          "flight: fail: event \"late\" waited");

@@ -166,6 +166,8 @@ TEST_F(FilmTest, IsMadeFromALog) {
     recorder.write_once("/autopilot/route", signals.route, autopilot::Time{0});
     for (int i = 0; i <= 200; ++i) {
       const autopilot::Time now = std::chrono::milliseconds(10 * i);
+      if (i == 20) recorder.write_once("/bench/event", RunEvent{0.2, "position_reset", "4.053 m"}, now);
+      if (i == 10) signals.estimate.health = autopilot::Health::kGood;
       if (i == 50) recorder.write_once("/bench/event", RunEvent{0.5, "request", "go_on"}, now);
       if (i == 60) recorder.write_once("/bench/event", RunEvent{0.6, "snapshot", "picture here"}, now);
       if (i == 190) {  // what comes last, however long, is not what the flight was about
@@ -196,6 +198,8 @@ TEST_F(FilmTest, IsMadeFromALog) {
   const FilmFrame& middle = script.frames[31];
   EXPECT_NEAR(middle.truth.pose.p_NB_N.x(), 2.0 * middle.time, kRoundOff) << "interpolated between samples";
   EXPECT_EQ(middle.captions.back(), "> go_on") << "that a picture is taken is not shown in it";
+  EXPECT_EQ(script.frames[9].captions.back(), "> position_reset 4.053 m");
+  EXPECT_FALSE(script.frames[1].estimate) << "there is none before the estimator has begun";
   ASSERT_TRUE(middle.estimate);
   EXPECT_NEAR(middle.estimate->p_NB_N.y(), 0.25, kRoundOff);
   EXPECT_EQ(middle.camera.p_N, Vector3(9, 9, -9));
