@@ -31,9 +31,9 @@ constexpr int kTimeOnly = 5;           // fix_type
 constexpr int kLeastSatellites = 6;
 constexpr double kLeastOfFullBattery = 0.85;  // 3.6 V of a cell that is full at 4.2 V
 constexpr double kMostOfFullBattery = 1.05;
-constexpr int kLeastTimeout = 50;      // ms
-constexpr int kGreatestTimeout = 150;  // ms
-constexpr std::uint64_t kLeastExchanges = 10;
+constexpr int kLeastTimeout = 50;             // ms
+constexpr int kGreatestTimeout = 150;         // ms
+constexpr std::uint64_t kLeastExchanges = 3;  // that are believed; slow ones are not
 constexpr Time kGreatestRoundTrip = std::chrono::milliseconds(20);
 constexpr double kGreatestLoss = 0.01;
 constexpr std::size_t kDifferencesShown = 3;
@@ -103,12 +103,12 @@ void look_at_link(const Monitored& unit, const InterlockInputs& in, List& list) 
            rate + "at most 1 % may be lost; look at cable, plug and baud rate");
   const hil_bridge::TimeSyncState& time = unit.fcu.connection().time_sync();
   const std::string trips =
-      std::to_string(time.used) + printed(" exchanges, least round trip %.2f ms",
+      std::to_string(time.used) + printed(" exchanges believed, least round trip %.2f ms",
                                           1e-6 * static_cast<double>(time.least_round_trip.count()));
   list.add("time", time.valid && time.used >= kLeastExchanges && time.least_round_trip <= kGreatestRoundTrip,
            trips,
            trips +
-               "; needs ten, the least of at most 20 ms: is the line slow, or a USB converter's latency "
+               "; needs three, the least of at most 20 ms: is the line slow, or a USB converter's latency "
                "timer at 16 ms?");
 }
 
