@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -15,6 +16,16 @@ inline constexpr std::uint8_t kDialectVersion = 2;
 
 /// Parameters of every ROSflight 2.0 unit.
 inline constexpr int kParameterCount = 333;
+
+/// No unit has been on for longer. What claims to be is a broken stamp, and is held here, where sums and
+/// differences of stamps still have room.
+inline constexpr std::chrono::nanoseconds kGreatestClock = std::chrono::hours(24 * 365 * 10);
+
+/// A unit's clock as it stands in its messages.
+constexpr std::chrono::nanoseconds clock_of(std::uint64_t us) {
+  constexpr auto kMost = static_cast<std::uint64_t>(kGreatestClock.count() / 1000);
+  return std::chrono::microseconds(std::min(us, kMost));
+}
 
 /// The two kinds of parameter.
 enum class ParameterType : std::uint8_t { kInteger = 6, kReal = 9 };

@@ -16,8 +16,10 @@ constexpr Time kGone = std::chrono::seconds(3);
 // back by less.
 constexpr Time kBootStep = milliseconds(500);
 
-Time from_microseconds(std::uint64_t us) {
-  return Time{static_cast<std::int64_t>(us) * 1000};
+/// Can this be the answer to a question of ours?
+bool answers_us(const rosflight::Timesync& message, Time now) {
+  return message.tc1 > 0 && Time{message.tc1} <= rosflight::kGreatestClock && message.ts1 >= 0 &&
+         Time{message.ts1} <= now;
 }
 
 }  // namespace
@@ -51,18 +53,19 @@ void Connection::take(const rosflight::Message& message, Time now) {
   if (state_ == ConnectionState::kSilent) state_ = ConnectionState::kHeard;
   if (const auto* imu = std::get_if<rosflight::SmallImu>(&message)) {
     imu_ = now;
-    hear(from_microseconds(imu->time_boot_us), now);
+    hear(rosflight::clock_of(imu->time_boot_us), now);
   } else if (const auto* value = std::get_if<rosflight::ParamValue>(&message)) {
     parameters_.take(*value, now);
   } else if (const auto* answer = std::get_if<rosflight::Timesync>(&message)) {
-    if (answer->tc1 > 0) time_sync_.exchange(Time{answer->ts1}, Time{answer->tc1}, now);
+    if (answers_us(*answer, now)) time_sync_.exchange(Time{answer->ts1}, Time{answer->tc1}, now);
   } else if (const auto* status = std::get_if<rosflight::RosflightStatus>(&message)) {
     status_ = *status;
     status_at_ = now;
   } else if (const auto* acknowledged = std::get_if<rosflight::RosflightCmdAck>(&message)) {
     parameters_.take(*acknowledged);
   } else if (const auto* version = std::get_if<rosflight::RosflightVersion>(&message)) {
-    version_ = rosflight::text_of(version->version);
+    // One that says nothing does not take back what was said.
+    if (const auto text = rosflight::text_of(version->version); !text.empty()) version_ = text;
   } else if (std::holds_alternative<rosflight::Heartbeat>(message)) {
     heartbeat_ = now;
   } else if (std::holds_alternative<rosflight::RcChannels>(message)) {

@@ -65,7 +65,7 @@ void SerialFcu::take(const rosflight::Frame& frame, Time now) {
 
 rosflight::Message SerialFcu::in_bench_time(const rosflight::Message& message, Time now) {
   const auto translated = [&](std::uint64_t us) {
-    const Time stamp = connection_.to_bench(Time{static_cast<std::int64_t>(us) * 1000}, now);
+    const Time stamp = connection_.to_bench(rosflight::clock_of(us), now);
     return static_cast<std::uint64_t>(stamp.count() < 0 ? 0 : stamp.count() / 1000);
   };
   rosflight::Message result = message;

@@ -16,15 +16,11 @@ Vector3 vector(float x, float y, float z) {
   return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
 }
 
-Time from_microseconds(std::uint64_t us) {
-  return Time{static_cast<std::int64_t>(us) * 1000};
-}
-
 }  // namespace
 
 const autopilot::SensorFrame* SensorFrameBuilder::push(const Arrival& arrival) {
   if (const auto* imu = std::get_if<rosflight::SmallImu>(&arrival.message)) {
-    imu_stamp_ = from_microseconds(imu->time_boot_us);
+    imu_stamp_ = rosflight::clock_of(imu->time_boot_us);
     gathering_.imu.stamp = imu_stamp_;
     gathering_.imu.f_B = vector(imu->xacc, imu->yacc, imu->zacc);
     gathering_.imu.w_NB_B = vector(imu->xgyro, imu->ygyro, imu->zgyro);
@@ -72,7 +68,7 @@ void SensorFrameBuilder::take(const rosflight::SmallBaro& message) {
 
 void SensorFrameBuilder::take(const rosflight::RosflightGnss& message) {
   autopilot::GnssSample sample;
-  sample.stamp = from_microseconds(message.rosflight_timestamp);
+  sample.stamp = rosflight::clock_of(message.rosflight_timestamp);
   sample.latitude = message.lat * kRadiansPerDegree;
   sample.longitude = message.lon * kRadiansPerDegree;
   sample.altitude = static_cast<double>(message.height);

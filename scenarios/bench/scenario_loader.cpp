@@ -1,7 +1,6 @@
 #include "scenarios/bench/scenario_loader.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <system_error>
 
 #include "scenarios/bench/autopilot_loader.hpp"
@@ -172,9 +171,7 @@ LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides&
   apply_overrides(root, overrides);
   note_places(root, "", loaded);
   if (!folder.place.empty()) loaded.places.insert_or_assign("vehicle", folder.place);
-  std::ostringstream effective;
-  effective << "vehicle_folder = \"" << folder.name << "\"\n" << root;
-  loaded.effective_config = effective.str();
+  loaded.effective_config = "vehicle_folder = \"" + folder.name + "\"\n" + print_toml(root);
   loaded.digest = digest(loaded.effective_config);
   loaded.scenario.vehicle_folder = folder.name;
   loaded.field_folders = folders_for(file, root.get("field"));

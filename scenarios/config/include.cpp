@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -206,6 +207,22 @@ toml::table parse_toml(std::string_view text, std::string_view name) {
   } catch (const toml::parse_error& error) {
     throw ConfigError(location(error.source()) + ": " + std::string(error.description()));
   }
+}
+
+std::string print_toml(const toml::table& table) {
+  const auto printed = [&](toml::format_flags flags) {
+    std::ostringstream text;
+    text << toml::toml_formatter(table, flags);
+    return text.str();
+  };
+  constexpr auto kUsual = toml::toml_formatter::default_flags;
+  constexpr auto kInLines =
+      toml::format_flags::allow_multi_line_strings | toml::format_flags::allow_literal_strings;
+  std::string text = printed(kUsual);
+  // Of a text in several lines that begins with an empty one, this library forgets that one when it reads it
+  // back.
+  const bool in_lines = text.find("'''") != std::string::npos || text.find("\"\"\"") != std::string::npos;
+  return in_lines ? printed(kUsual & ~kInLines) : text;
 }
 
 void merge_toml(toml::table& under, toml::table&& over) {

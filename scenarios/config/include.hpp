@@ -20,6 +20,9 @@ toml::table load_toml(const std::filesystem::path& file);
 /// The same for a text; `name` stands for the file in messages.
 toml::table parse_toml(std::string_view text, std::string_view name);
 
+/// The table as TOML that reads back to the same table.
+std::string print_toml(const toml::table& table);
+
 /// Lays `over` on `under`: values of `over` win, tables merge, arrays replace.
 /// @throws ConfigError when one has a table where the other has none: neither could win without a loss
 void merge_toml(toml::table& under, toml::table&& over);

@@ -2,8 +2,10 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "scenarios/config/config_error.hpp"
@@ -20,12 +22,42 @@ using hil_bridge::ParameterRecord;
 
 constexpr std::size_t kLongestName = 16;
 
+/// Counted from 1. What is about nothing, as in an empty file, is about its beginning.
+std::string line_of(const YAML::Mark& mark) {
+  return std::to_string(std::max(mark.line, 0) + 1);
+}
+
+/// Letters, digits and underscores: what a unit's names are made of, and what stands in a file without
+/// quotes.
+bool is_name(std::string_view text) {
+  const auto usual = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !text.empty() && text.size() <= kLongestName && std::all_of(text.begin(), text.end(), usual);
+}
+
+/// In quotes when it is not usual, or when YAML would take it for nothing at all.
+std::string written_name(const std::string& name) {
+  if (is_name(name) && name != "null" && name != "Null" && name != "NULL") return name;
+  std::string text = "\"";
+  for (const char c : name) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code >= 0x7F || c == '"' || c == '\\') {
+      text += {'\\', 'x', kDigits[code >> 4U], kDigits[code & 15U]};
+    } else {
+      text += c;
+    }
+  }
+  return text + '"';
+}
+
 /// Collects what is wrong with a file, each with its line.
 class Findings {
  public:
   explicit Findings(std::string file) : file_(std::move(file)) {}
   void add(const YAML::Mark& mark, const std::string& text) {
-    findings_.push_back(file_ + ":" + std::to_string(mark.line + 1) + ": " + text);
+    findings_.push_back(file_ + ":" + line_of(mark) + ": " + text);
   }
   void raise() const {
     if (!findings_.empty()) throw ConfigError(findings_);
@@ -68,8 +100,8 @@ std::optional<ParameterRecord> record_of(const YAML::Node& entry, Findings& find
   const auto value = text_at(entry, "value", findings);
   if (!name || !type || !value) return std::nullopt;
   const auto kind = type_of(*type);
-  if (name->empty() || name->size() > kLongestName) {
-    findings.add(entry.Mark(), "name = \"" + *name + "\", must have 1 to 16 letters");
+  if (!is_name(*name)) {
+    findings.add(entry.Mark(), "name = \"" + *name + "\", must have 1 to 16 letters, digits and underscores");
   } else if (!kind) {
     findings.add(entry.Mark(), *name + ": type = " + *type + ", must be 6 (whole number) or 9 (real number)");
   } else if (const auto bits = hil_bridge::value_bits(*kind, plain(*value)); !bits) {
@@ -87,17 +119,17 @@ YAML::Node parsed(const std::filesystem::path& file) {
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw ConfigError(file.string() + ":" + std::to_string(error.mark.line + 1) +
-                      ": is not YAML: " + error.msg);
+    throw ConfigError(file.string() + ":" + line_of(error.mark) + ": is not YAML: " + error.msg);
   }
 }
 
 }  // namespace
 
 std::string parameter_file_text(const std::vector<ParameterRecord>& records) {
+  if (records.empty()) return "[]\n";  // nothing at all would be no list
   std::string text;
   for (const ParameterRecord& record : records) {
-    text += "- {name: " + record.name + ", type: " + std::to_string(record.type) +
+    text += "- {name: " + written_name(record.name) + ", type: " + std::to_string(record.type) +
             ", value: " + hil_bridge::value_text(record) + "}\n";
   }
   return text;

@@ -16,8 +16,6 @@ constexpr std::string_view kCompression = "zstd";
 constexpr int kCompressionLevel = 1;
 /// Content of a chunk in front of its compression's name, and behind it.
 constexpr std::size_t kChunkHeadFixed = 8 + 8 + 8 + 4 + 4 + 8;
-/// Channel, sequence, two times.
-constexpr std::size_t kMessageHead = 2 + 4 + 8 + 8;
 
 /// Room made beforehand, so that a flight of the usual length takes no memory; untouched room costs none.
 constexpr std::size_t kExpectedChunks = 4096;

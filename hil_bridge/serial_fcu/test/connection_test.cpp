@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "hil_bridge/serial_fcu/test/served_unit.hpp"
 
@@ -58,6 +59,39 @@ TEST(ConnectionTest, FallsSilentWhenNothingMoreComes) {
   EXPECT_EQ(connection.state(), ConnectionState::kHeard);
   connection.advance(seconds(4), ignore);
   EXPECT_EQ(connection.state(), ConnectionState::kSilent);
+}
+
+TEST(ConnectionTest, TakesAStampThatNoClockCanHaveForABrokenOne) {
+  Connection connection({.download = false});
+  connection.begin(Time{});
+  connection.take(rosflight::SmallImu{.time_boot_us = ~std::uint64_t{0}}, milliseconds(1));
+  connection.take(rosflight::SmallImu{.time_boot_us = 90'000'000}, milliseconds(2));
+  EXPECT_EQ(connection.reboots(), 1) << "the clock began anew";
+  connection.take(rosflight::SmallImu{.time_boot_us = 90'002'500}, milliseconds(4));
+  EXPECT_EQ(connection.reboots(), 1);
+}
+
+TEST(ConnectionTest, BelievesAnswersToItsOwnQuestionsOnly) {
+  Connection connection;
+  connection.begin(Time{});
+  const Time now = milliseconds(100);
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  connection.take(rosflight::Timesync{.tc1 = kMost, .ts1 = 50'000'000}, now);
+  connection.take(rosflight::Timesync{.tc1 = 1'000'000, .ts1 = -kMost}, now);
+  connection.take(rosflight::Timesync{.tc1 = 1'000'000, .ts1 = kMost}, now);
+  connection.take(rosflight::Timesync{.tc1 = 0, .ts1 = 50'000'000}, now);
+  EXPECT_FALSE(connection.time_sync().valid);
+  connection.take(rosflight::Timesync{.tc1 = 1'000'000, .ts1 = 50'000'000}, now);
+  EXPECT_TRUE(connection.time_sync().valid);
+}
+
+TEST(ConnectionTest, KeepsAVersionThatItWasToldOnce) {
+  Connection connection({.download = false});
+  connection.begin(Time{});
+  connection.take(version("v2.0.1"), milliseconds(1));
+  connection.take(version(""), milliseconds(2));
+  EXPECT_EQ(connection.version(), "v2.0.1");
+  EXPECT_EQ(connection.state(), ConnectionState::kReady);
 }
 
 TEST(ConnectionTest, FindsEverythingOutAnewWhenTheUnitHasBooted) {

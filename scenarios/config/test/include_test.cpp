@@ -77,6 +77,12 @@ TEST_F(IncludeTest, LooksBesideTheFileThenInTheFoldersAboveIt) {
   EXPECT_TRUE(table.contains("near") && table.contains("far") && table.contains("up"));
 }
 
+TEST_F(IncludeTest, PrintsATableThatReadsBackTheSame) {
+  const toml::table table = parse_toml("text = \"\"\"\n\n\nends here\"\"\"\nother = 'it\\n'\n", "a.toml");
+  EXPECT_EQ(table["text"].value<std::string>(), "\n\nends here");
+  EXPECT_EQ(parse_toml(print_toml(table), "b.toml"), table) << print_toml(table);
+}
+
 TEST_F(IncludeTest, MayReachOneFileOnTwoWays) {
   file("a.toml", "include = [\"b.toml\", \"c.toml\"]\n");
   file("b.toml", "include = [\"d.toml\"]\n");

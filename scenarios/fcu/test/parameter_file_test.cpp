@@ -61,22 +61,54 @@ TEST_F(ParameterFileTest, ReadsWhatTheUsualCompanionWrites) {
   EXPECT_EQ(hil_bridge::value_text(records[2]), "-1");
 }
 
+TEST_F(ParameterFileTest, GivesNoParametersBackAsNone) {
+  write_parameter_file(file_, {});
+  EXPECT_THAT(read_parameter_file(file_), ElementsAre());
+}
+
+TEST_F(ParameterFileTest, KeepsANameThatYamlWouldTakeForNothing) {
+  const std::vector<ParameterRecord> records = {{"NULL", kIntegerParameter, 1}, {"_9", kIntegerParameter, 2}};
+  write_parameter_file(file_, records);
+  EXPECT_EQ(read_parameter_file(file_), records);
+}
+
+TEST_F(ParameterFileTest, RefusesNamesThatNoUnitHas) {
+  const std::string at = file_.string() + ":1: name = ";
+  constexpr const char* kWanted = ", must have 1 to 16 letters, digits and underscores";
+  EXPECT_THAT(findings("- {name: A B, type: 6, value: 1}\n"), ElementsAre(at + "\"A B\"" + kWanted));
+  EXPECT_THAT(findings("- {name: \"\", type: 6, value: 1}\n"), ElementsAre(at + "\"\"" + kWanted));
+  // GIVEN a unit, or something that is none, whose names are anything
+  write_parameter_file(file_, {{"a\": {x}\n\x80", kIntegerParameter, 1}});
+  // THEN the file stays one that can be read, and it is the name that is refused
+  try {
+    read_parameter_file(file_);
+    ADD_FAILURE();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.findings(), ElementsAre(HasSubstr(kWanted)));
+  }
+}
+
+TEST_F(ParameterFileTest, NamesTheBeginningOfAFileThatHoldsNothing) {
+  EXPECT_THAT(findings(""), ElementsAre(HasSubstr(file_.string() + ":1: is no list of parameters")));
+}
+
 TEST_F(ParameterFileTest, TellsEveryMistakeWithItsLine) {
   const std::string at = file_.string() + ":";
-  EXPECT_THAT(findings("- {name: A, type: 6, value: 1.5}\n"
-                       "- {name: B, type: 7, value: 1}\n"
-                       "- {name: C, type: 9}\n"
-                       "- 5\n"
-                       "- {name: ABCDEFGHIJKLMNOPQ, type: 6, value: 1}\n"
-                       "- {name: D, type: 9, value: fast}\n"
-                       "- {name: E, type: 6, value: 1}\n"
-                       "- {name: E, type: 6, value: 2}\n"),
-              ElementsAre(at + "1: A = 1.5, must be a whole number of 32 bits",
-                          at + "2: B: type = 7, must be 6 (whole number) or 9 (real number)",
-                          at + "3: there is no `value`; an entry is {name: NAME, type: 6 or 9, value: VALUE}",
-                          at + "4: is no entry; an entry is {name: NAME, type: 6 or 9, value: VALUE}",
-                          at + "5: name = \"ABCDEFGHIJKLMNOPQ\", must have 1 to 16 letters",
-                          at + "6: D = fast, must be a real number", at + "8: E: comes twice"));
+  EXPECT_THAT(
+      findings("- {name: A, type: 6, value: 1.5}\n"
+               "- {name: B, type: 7, value: 1}\n"
+               "- {name: C, type: 9}\n"
+               "- 5\n"
+               "- {name: ABCDEFGHIJKLMNOPQ, type: 6, value: 1}\n"
+               "- {name: D, type: 9, value: fast}\n"
+               "- {name: E, type: 6, value: 1}\n"
+               "- {name: E, type: 6, value: 2}\n"),
+      ElementsAre(at + "1: A = 1.5, must be a whole number of 32 bits",
+                  at + "2: B: type = 7, must be 6 (whole number) or 9 (real number)",
+                  at + "3: there is no `value`; an entry is {name: NAME, type: 6 or 9, value: VALUE}",
+                  at + "4: is no entry; an entry is {name: NAME, type: 6 or 9, value: VALUE}",
+                  at + "5: name = \"ABCDEFGHIJKLMNOPQ\", must have 1 to 16 letters, digits and underscores",
+                  at + "6: D = fast, must be a real number", at + "8: E: comes twice"));
 }
 
 TEST_F(ParameterFileTest, RefusesWhatIsNoYamlAndWhatIsNoList) {
