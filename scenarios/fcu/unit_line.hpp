@@ -55,7 +55,6 @@ class UnitOnLine {
   hil_bridge::Interlock gate_;
   hil_bridge::SerialFcu fcu_;
   std::vector<hil_bridge::Arrival> heard_;
-  std::uint64_t messages_ = 0;
 };
 
 }  // namespace ironbird::scenarios

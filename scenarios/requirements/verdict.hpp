@@ -49,8 +49,8 @@ struct Verdict {
   }
 };
 
-/// Finds outcome and reasons: invalid if `broken_promises` names any, else the worst of the checks. A run
-/// without a check is inconclusive: nothing was asked of it.
+/// Finds outcome and reasons: invalid if `broken_promises` names any, else the worst of the checks that
+/// could be judged. A run without any is inconclusive: nothing was asked of it.
 void conclude(Verdict& verdict, const std::vector<std::string>& broken_promises);
 
 /// What the program returns for a run: 0 pass, 1 fail, 5 inconclusive or invalid.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <bit>
 #include <chrono>
 #include <cstdint>
+#include <string_view>
 
 #include "hil_bridge/serial_fcu/serial_fcu.hpp"
 #include "hil_bridge/transport/link_fault.hpp"
@@ -41,6 +43,19 @@ inline transport::LinkFaultConfig losing(double share) {
   return {faults, {}};
 }
 
+inline rosflight::ParamSet setting(std::string_view name, std::uint32_t bits, std::uint8_t type) {
+  return {.param_value = {bits},
+          .target_system = 1,
+          .param_id = rosflight::field_of<16>(name),
+          .param_type = type};
+}
+inline rosflight::ParamSet setting(std::string_view name, float value) {
+  return setting(name, std::bit_cast<std::uint32_t>(value), kRealParameter);
+}
+inline rosflight::ParamSet setting(std::string_view name, int value) {
+  return setting(name, std::bit_cast<std::uint32_t>(value), kIntegerParameter);
+}
+
 /// Both ends, ticking together.
 class DeskLink {
  public:
@@ -48,8 +63,10 @@ class DeskLink {
   /// Bench time at which the unit's clock was zero.
   static constexpr Time kBooted = std::chrono::milliseconds(7300);
 
-  explicit DeskLink(double loss = 0.0, std::uint64_t seed = 1, const ConnectionConfig& connection = {})
-      : there_(pair_.far(), losing(loss), seed),
+  explicit DeskLink(double loss = 0.0, std::uint64_t seed = 1, const ConnectionConfig& connection = {},
+                    const VirtualFcuConfig& unit = {})
+      : unit_(unit),
+        there_(pair_.far(), losing(loss), seed),
         here_(pair_.near(), losing(loss), seed + 1000),
         served_(unit_, there_),
         fcu_(here_, connection, &gate_) {}
