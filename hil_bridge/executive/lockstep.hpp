@@ -2,48 +2,33 @@
 
 #include <vector>
 
-#include "autopilot/autopilot.hpp"
-#include "hil_bridge/fcu/fcu.hpp"
-#include "hil_bridge/translate/sensor_frame_builder.hpp"
-#include "hil_bridge/translate/telemetry.hpp"
+#include "hil_bridge/executive/control_tick.hpp"
 
 namespace ironbird::hil_bridge {
 
-/// The metronome of simulated runs: one thread, no waiting, as fast as it goes.
-///
-/// In each tick the FCU advances, its messages become sensor frames, the autopilot answers each frame with
-/// one command, and the command goes back. Nothing here reads a clock: the ticks are the time.
-/// docs/conventions.md, tick semantics.
+/// The metronome of simulated runs: one thread, no waiting, as fast as it goes. Nothing here reads a clock:
+/// the ticks are the time. docs/conventions.md, tick semantics.
 class Lockstep {
  public:
   /// @param period  of a tick, > 0
-  Lockstep(Fcu& fcu, autopilot::Autopilot& pilot, Time period);
+  Lockstep(Fcu& fcu, autopilot::Autopilot& pilot, Guard& guard, Time period);
 
   /// One tick. @return the time reached
   Time tick();
 
   Time now() const { return now_; }
-  const Telemetry& telemetry() const { return telemetry_; }
-
+  const Telemetry& telemetry() const { return tick_.telemetry(); }
   /// The autopilot worked in the last tick.
-  bool stepped() const { return stepped_; }
-
+  bool stepped() const { return tick_.stepped(); }
   /// Texts that the FCU sent in the last tick.
-  const std::vector<rosflight::Statustext>& texts() const { return texts_; }
+  const std::vector<rosflight::Statustext>& texts() const { return tick_.texts(); }
 
  private:
-  void dispatch(const Arrival& arrival);
-
   Fcu& fcu_;
-  autopilot::Autopilot& pilot_;
+  ControlTick tick_;
   Time period_;
   Time now_{0};
   Time next_heartbeat_{0};
-  SensorFrameBuilder builder_;
-  Telemetry telemetry_;
-  std::vector<Arrival> inbox_;
-  std::vector<rosflight::Statustext> texts_;
-  bool stepped_ = false;
 };
 
 }  // namespace ironbird::hil_bridge

@@ -6,29 +6,36 @@ Interlock::Interlock(const InterlockConfig& config) : config_(config), check_(co
 
 const InterlockStatus& Interlock::step(InterlockInputs in, Time now) {
   unit_disarmed_ = in.unit_disarmed && !in.unit_armed;
-  in.commands_sound = in.commands_sound && !refused_too_long(now);
+  in.commands_sound = in.commands_sound && !refused_too_long();
   const InterlockRow* const row = deciding_row(status_.state, in);
   if (row == nullptr) return status_;
-  if (row->to == InterlockState::kLive) last_passed_ = now;
+  if (row->to == InterlockState::kLive) refused_since_.reset();
   status_.state = row->to;
   status_.why = row->why;
   status_.since = now;
   return status_;
 }
 
-bool Interlock::refused_too_long(Time now) const {
-  return status_.state == InterlockState::kLive && now - last_passed_ > config_.unit_timeout / 2;
+bool Interlock::refused_too_long() const {
+  return refused_since_ && refused_last_ - *refused_since_ >= config_.unit_timeout / 2;
+}
+
+void Interlock::refuse(CommandFault fault, Time now) {
+  ++status_.refused[static_cast<std::size_t>(fault)];
+  if (status_.state != InterlockState::kLive) return;
+  if (!refused_since_) refused_since_ = now;
+  refused_last_ = now;
 }
 
 std::optional<rosflight::OffboardControl> Interlock::command(const StampedCommand& wanted, Time now) {
   if (status_.state != InterlockState::kLive) return idle();
   const CommandFault fault = check_.check(wanted, now);
   if (fault != CommandFault::kNone) {
-    ++status_.refused[static_cast<std::size_t>(fault)];
+    refuse(fault, now);
     return std::nullopt;
   }
   ++status_.passed;
-  last_passed_ = now;
+  refused_since_.reset();
   return wanted.command;
 }
 

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "hil_bridge/interlock/command_check.hpp"
 #include "hil_bridge/interlock/gate.hpp"
@@ -15,6 +17,10 @@ enum class InterlockProfile : std::uint8_t {
   kBench,   ///< zero thrust, repeated: the vehicle is tied down
   kFlight,  ///< nothing: silence hands over to the pilot's radio, while zeros in the air are a crash
 };
+
+constexpr std::array<std::pair<InterlockProfile, std::string_view>, 2> enumerators(InterlockProfile) {
+  return {{{InterlockProfile::kBench, "bench"}, {InterlockProfile::kFlight, "flight"}}};
+}
 
 struct InterlockConfig {
   InterlockProfile profile = InterlockProfile::kBench;
@@ -53,20 +59,24 @@ class Interlock final : public Gate {
   /// One motor command. @return what leaves, or none
   std::optional<rosflight::OffboardControl> command(const StampedCommand& wanted, Time now);
 
+  /// The autopilot commanded what cannot even be written down.
+  void refuse(CommandFault fault, Time now);
+
   /// Everything else. A motor command that comes this way is refused: it has no stamp.
   std::optional<rosflight::Message> pass(const rosflight::Message& message, Time now) override;
 
   const InterlockStatus& status() const { return status_; }
 
  private:
-  bool refused_too_long(Time now) const;
+  bool refused_too_long() const;
   std::optional<rosflight::OffboardControl> idle() const;
 
   InterlockConfig config_;
   CommandCheck check_;
   InterlockStatus status_;
   bool unit_disarmed_ = false;
-  Time last_passed_{};
+  std::optional<Time> refused_since_;  // the first refusal that no passed command followed
+  Time refused_last_{};
 };
 
 }  // namespace ironbird::hil_bridge

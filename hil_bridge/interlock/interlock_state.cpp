@@ -17,6 +17,23 @@ bool verified(const In& in) {
          in.sensors_flow && in.radio_present && in.estimate_usable && in.commands_sound && in.bench_in_time;
 }
 
+/// What is said where an input does not hold.
+struct Missing {
+  bool InterlockInputs::*input;
+  std::string_view text;
+};
+constexpr Missing kMissing[] = {
+    {&In::link_alive, "no heartbeat of the unit"},
+    {&In::unit_known, "its version and parameters are not known yet"},
+    {&In::parameters_equal, "its parameters are not the scenario's"},
+    {&In::unit_disarmed, "it does not say that it is disarmed"},
+    {&In::unit_faultless, "it reports an error or its failsafe"},
+    {&In::sensors_flow, "no IMU data"},
+    {&In::radio_present, "no radio frames, or no override switch is mapped"},
+    {&In::estimate_usable, "no estimate of attitude and height yet"},
+    {&In::bench_in_time, "the control loop misses its period"},
+};
+
 // Kills come first, and among them what the operator wants. A released or flying unit that is not all right
 // is killed; one that is not released yet falls back to the state whose conditions hold.
 constexpr InterlockRow kRows[] = {
@@ -102,6 +119,14 @@ std::string_view name_of(InterlockState state) {
   constexpr std::array<std::string_view, kInterlockStates.size()> kNames = {
       "cold", "connected", "verified", "released", "live", "killed"};
   return kNames[static_cast<std::size_t>(state)];
+}
+
+std::string what_is_missing(const InterlockInputs& in) {
+  std::string all;
+  for (const Missing& missing : kMissing) {
+    if (!(in.*missing.input)) all += (all.empty() ? "" : ", ") + std::string(missing.text);
+  }
+  return all;
 }
 
 std::span<const InterlockRow> interlock_rows() {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace ironbird::hil_bridge {
@@ -61,6 +62,9 @@ struct InterlockInputs {
     visit("kill_wanted", self.kill_wanted, "1", "the operator kills, now");
   }
 };
+
+/// What keeps a unit from being verified, for the operator: "no radio frames, ..."; empty: nothing.
+std::string what_is_missing(const InterlockInputs& in);
 
 /// One row: from these states, if this holds, to that one.
 struct InterlockRow {

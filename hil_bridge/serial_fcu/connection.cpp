@@ -48,8 +48,9 @@ void Connection::begin(Time now) {
   if (config_.download) parameters_.start_download(now);
 }
 
-void Connection::take(const rosflight::Message& message, Time now) {
+void Connection::take(const rosflight::Message& message, Time now, std::uint64_t lost) {
   frame_ = now;
+  lost_ = lost;
   if (state_ == ConnectionState::kSilent) state_ = ConnectionState::kHeard;
   if (const auto* imu = std::get_if<rosflight::SmallImu>(&message)) {
     imu_ = now;
@@ -61,6 +62,7 @@ void Connection::take(const rosflight::Message& message, Time now) {
   } else if (const auto* status = std::get_if<rosflight::RosflightStatus>(&message)) {
     status_ = *status;
     status_at_ = now;
+    lost_at_status_ = lost;
   } else if (const auto* acknowledged = std::get_if<rosflight::RosflightCmdAck>(&message)) {
     parameters_.take(*acknowledged);
   } else if (const auto* version = std::get_if<rosflight::RosflightVersion>(&message)) {
@@ -68,6 +70,7 @@ void Connection::take(const rosflight::Message& message, Time now) {
     if (const auto text = rosflight::text_of(version->version); !text.empty()) version_ = text;
   } else if (std::holds_alternative<rosflight::Heartbeat>(message)) {
     heartbeat_ = now;
+    lost_at_heartbeat_ = lost;
   } else if (std::holds_alternative<rosflight::RcChannels>(message)) {
     radio_ = now;
   }

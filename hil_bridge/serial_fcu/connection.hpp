@@ -51,12 +51,16 @@ class Connection {
   static constexpr Time kHeartbeatSilence = std::chrono::seconds(3);
   static constexpr Time kRcSilence = std::chrono::milliseconds(100);
   static constexpr Time kStatusSilence = std::chrono::milliseconds(500);
+  /// A report that the unit's count of frames shows to have been lost on the way may be missing longer.
+  static constexpr Time kHeartbeatLost = std::chrono::seconds(10);
+  static constexpr Time kStatusLost = std::chrono::seconds(1);
 
   explicit Connection(const ConnectionConfig& config = {});
 
   /// The line is up, anew or for the first time.
   void begin(Time now);
-  void take(const rosflight::Message& message, Time now);
+  /// @param lost  frames of the unit that did not arrive, since the line came up
+  void take(const rosflight::Message& message, Time now, std::uint64_t lost = 0);
   /// Sends what is due. Call it often, at least every 20 ms.
   void advance(Time now, const Send& send);
 
@@ -71,20 +75,23 @@ class Connection {
   Time to_bench(Time fcu, Time fallback);
 
   bool imu_alive(Time now) const { return heard_within(imu_, now, kImuSilence); }
-  bool heartbeat_alive(Time now) const { return heard_within(heartbeat_, now, kHeartbeatSilence); }
+  bool heartbeat_alive(Time now) const {
+    return heard_within(heartbeat_, now, lost_ > lost_at_heartbeat_ ? kHeartbeatLost : kHeartbeatSilence);
+  }
   bool radio_alive(Time now) const { return heard_within(radio_, now, kRcSilence); }
   const std::optional<rosflight::RosflightStatus>& status() const { return status_; }
   /// Does its latest report, not older than half a second, say that it is armed, or that it is not?
-  bool armed(Time now) const { return heard_within(status_at_, now, kStatusSilence) && status_->armed != 0; }
-  bool disarmed(Time now) const {
-    return heard_within(status_at_, now, kStatusSilence) && status_->armed == 0;
-  }
+  bool armed(Time now) const { return status_alive(now) && status_->armed != 0; }
+  bool disarmed(Time now) const { return status_alive(now) && status_->armed == 0; }
   /// How often the unit has booted since the line came up, as its clock tells.
   int reboots() const { return reboots_; }
 
  private:
   static bool heard_within(const std::optional<Time>& last, Time now, Time silence) {
     return last && now - *last <= silence;
+  }
+  bool status_alive(Time now) const {
+    return heard_within(status_at_, now, lost_ > lost_at_status_ ? kStatusLost : kStatusSilence);
   }
   /// Notes the unit's clock. One that starts anew is a unit that has booted.
   void hear(Time fcu, Time now);
@@ -103,6 +110,9 @@ class Connection {
   std::optional<Time> radio_;
   std::optional<rosflight::RosflightStatus> status_;
   std::optional<Time> status_at_;
+  std::uint64_t lost_ = 0;
+  std::uint64_t lost_at_heartbeat_ = 0;
+  std::uint64_t lost_at_status_ = 0;
   Time fcu_clock_ = Time::min();
   int reboots_ = 0;
   Time heartbeat_due_ = Time::min();

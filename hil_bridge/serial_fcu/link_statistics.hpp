@@ -47,6 +47,8 @@ class LinkStatistics {
   void restart() { sequence_.reset(); }
 
   LinkHealth health(Time now, const rosflight::DecoderCounts& counts, Time round_trip) const;
+  /// Frames missing in the unit's count, since the start.
+  std::uint64_t lost() const { return lost_; }
   /// Frames of one kind in the last whole second.
   int rate(std::size_t kind) const { return rates_[kind]; }
 

@@ -55,7 +55,7 @@ void SerialFcu::watch_line(Time now) {
 
 void SerialFcu::take(const rosflight::Frame& frame, Time now) {
   statistics_.take(frame, now);
-  connection_.take(frame.message, now);
+  connection_.take(frame.message, now, statistics_.lost());
   if (inbox_.size() == kInboxRoom) {
     ++overrun_;
     return;

@@ -27,6 +27,9 @@ class SerialFcu final : public Fcu {
   ///              nothing that changes the unit
   explicit SerialFcu(transport::ByteStream& line, const ConnectionConfig& config = {}, Gate* gate = nullptr);
 
+  /// From now on this gate is asked before anything leaves. @param gate  outlives this
+  void set_gate(Gate& gate) { gate_ = &gate; }
+
   /// Takes what has arrived, sends what is due.
   void advance(Time now) override;
   void receive(std::vector<Arrival>& out) override;
@@ -42,6 +45,7 @@ class SerialFcu final : public Fcu {
   LinkHealth health(Time now) const {
     return statistics_.health(now, decoder_.counts(), connection_.time_sync().round_trip);
   }
+  bool line_is_up() const { return line_.is_up(); }
   const LinkStatistics& statistics() const { return statistics_; }
   /// Messages that nobody fetched in time.
   std::uint64_t overrun() const { return overrun_; }

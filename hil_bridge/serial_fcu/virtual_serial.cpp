@@ -106,6 +106,10 @@ void VirtualSerialFcu::send(const rosflight::Message& message) {
   line_->serial.send(message);
 }
 
+void VirtualSerialFcu::set_gate(Gate& gate) {
+  line_->serial.set_gate(gate);
+}
+
 const SerialFcu& VirtualSerialFcu::serial() const {
   return line_->serial;
 }

@@ -18,13 +18,16 @@ class VirtualSerialFcu final : public Fcu {
   /// @param unit  advanced by nobody else; outlives this
   /// @param system  its SYS_ID
   /// @throws transport::LinkError where the machine has no pseudo-terminals
-  VirtualSerialFcu(Fcu& unit, std::uint8_t system, Gate* gate);
+  explicit VirtualSerialFcu(Fcu& unit, std::uint8_t system, Gate* gate = nullptr);
   ~VirtualSerialFcu() override;
 
   /// @throws transport::LinkError when bytes that were sent do not arrive within a second
   void advance(Time now) override;
   void receive(std::vector<Arrival>& out) override;
   void send(const rosflight::Message& message) override;
+
+  /// From now on this gate is asked before anything leaves. @param gate  outlives this
+  void set_gate(Gate& gate);
 
   const SerialFcu& serial() const;
   /// Bytes that went to the unit and came from it.

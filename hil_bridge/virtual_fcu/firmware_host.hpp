@@ -15,19 +15,8 @@
 
 namespace ironbird::hil_bridge {
 
-/// How the virtual FCU is reached.
-enum class FcuKind : std::uint8_t {
-  kVirtual,        ///< by function call
-  kVirtualSerial,  ///< over a pseudo-terminal, as bytes, in lock-step
-};
-
-constexpr std::array<std::pair<FcuKind, std::string_view>, 2> enumerators(FcuKind) {
-  return {{{FcuKind::kVirtual, "virtual"}, {FcuKind::kVirtualSerial, "virtual_serial"}}};
-}
-
-/// How the virtual FCU is set up and wired.
+/// How the virtual FCU is set up.
 struct VirtualFcuConfig {
-  FcuKind kind = FcuKind::kVirtual;
   std::vector<virtual_fcu::ParameterOverride> parameters;
   Time tick = std::chrono::microseconds(2500);
   double rc_rate = 100.0;
@@ -41,7 +30,6 @@ struct VirtualFcuConfig {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("kind", self.kind, "1", "how it is reached: virtual or virtual_serial");
     visit("parameters", self.parameters, "", "firmware parameters that are not at their default");
     visit("tick", self.tick, "ns", "period of the IMU and of the control loop, whole microseconds", 1e5, 2e7);
     visit("rc_rate", self.rc_rate, "Hz",

@@ -9,6 +9,7 @@
 #include "scenarios/app/command_line.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/failure.hpp"
+#include "scenarios/app/live_run.hpp"
 #include "scenarios/app/run_job.hpp"
 #include "scenarios/app/run_jobs.hpp"
 #include "scenarios/app/run_summary.hpp"
@@ -26,6 +27,7 @@ struct RunArguments {
   int jobs = 1;
   bool json = false;
   RunProducts products;
+  LiveWord live;
   bool no_log = false;
   bool no_report = false;
 };
@@ -50,7 +52,7 @@ std::vector<RunJob> jobs_of(const std::string& file, const std::vector<std::uint
       name.seed = seeds[i];
       name.folder /= "seed_" + std::to_string(seeds[i]);
     }
-    jobs.push_back({std::move(name), std::move(loaded), arguments.products});
+    jobs.push_back({std::move(name), std::move(loaded), arguments.products, arguments.live});
   }
   return jobs;
 }
@@ -110,6 +112,7 @@ int run(RunArguments arguments, const autopilot::Modules& modules) {
   check_arguments(arguments);
   Plan plan = make_plan(arguments, modules);
   check_folders(plan.jobs);
+  check_live_jobs(plan.jobs);
   if (!arguments.junit.empty()) write_first_junit_file(plan, arguments.junit);
   for (const RunResult& result : plan.refused) tell_error(result);
   std::vector<RunResult> results = std::move(plan.refused);
@@ -140,6 +143,12 @@ Verb run_verb() {
             app.add_flag("--no-log", arguments->no_log, "write no log and no report, only the verdict");
             app.add_flag("--no-report", arguments->no_report, "write no report");
             app.add_option("--junit", arguments->junit, "write a JUnit file for a build server");
+            app.add_flag("--release", arguments->live.released,
+                         "with fcu.kind = serial: the operator's word that the unit may be flown");
+            app.add_option("--patience", arguments->live.meeting_patience,
+                           "with fcu.kind = serial: how long to wait for the unit, s")
+                ->check(CLI::Range(0.1, 3600.0))
+                ->capture_default_str();
             app.add_flag("--json", arguments->json, "verdicts as JSON on standard output");
             app.footer(
                 "Examples:\n"

@@ -8,6 +8,7 @@
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/failure.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/app/live_run.hpp"
 #include "scenarios/app/products.hpp"
 #include "scenarios/app/scene.hpp"
 #include "scenarios/bench/bench.hpp"
@@ -18,7 +19,8 @@ namespace ironbird::scenarios {
 
 namespace {
 
-Verdict fly(const RunJob& job, const autopilot::Modules& modules, RunListener& listener, bool& interrupted) {
+Verdict fly_simulated(const RunJob& job, const autopilot::Modules& modules, RunListener& listener,
+                      bool& interrupted) {
   const auto start = std::chrono::steady_clock::now();
   BenchOptions options;
   if (job.products.log) options.log_file = job.name.folder / "flight.mcap";
@@ -34,6 +36,11 @@ Verdict fly(const RunJob& job, const autopilot::Modules& modules, RunListener& l
   Verdict verdict = bench.fly();
   interrupted = bench.interrupted();
   return verdict;
+}
+
+Verdict fly(const RunJob& job, const autopilot::Modules& modules, RunListener& listener, bool& interrupted) {
+  const bool live = job.loaded->scenario.fcu.kind == FcuKind::kSerial;
+  return (live ? fly_live : fly_simulated)(job, modules, listener, interrupted);
 }
 
 /// What an earlier run left in the folder must not be taken for this one's.
@@ -53,7 +60,7 @@ void carry_out(const RunJob& job, const autopilot::Modules& modules, RunListener
   const std::filesystem::path& folder = job.name.folder;
   if (job.products.video || job.products.snapshots) check_scene(*job.loaded);
   // A run that cannot be wired leaves the results of an earlier one alone.
-  { const Bench possible(*job.loaded, modules, {}); }
+  if (job.loaded->scenario.fcu.kind != FcuKind::kSerial) const Bench possible(*job.loaded, modules, {});
   make_folder(folder);
   remove_old_products(folder);
   bool interrupted = false;

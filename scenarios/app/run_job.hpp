@@ -22,6 +22,13 @@ struct RunProducts {
   bool snapshots = false;
 };
 
+/// What an operator says of a run on a real unit.
+struct LiveWord {
+  bool released = false;
+  double meeting_patience = 5.0;    ///< s, until the unit has said who it is
+  double verified_patience = 60.0;  ///< s, until all is as the scenario wants it, where nobody watches
+};
+
 /// Which run it is.
 struct RunName {
   std::string scenario;               ///< file name without its ending
@@ -37,6 +44,7 @@ struct RunJob {
   RunName name;
   std::shared_ptr<const LoadedScenario> loaded;
   RunProducts products;
+  LiveWord live;
 };
 
 /// What became of it.

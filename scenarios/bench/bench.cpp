@@ -1,11 +1,9 @@
 #include "scenarios/bench/bench.hpp"
 
-#include <cmath>
-#include <cstring>
-#include <stdexcept>
 #include <utility>
 
 #include "scenarios/bench/check_rules.hpp"
+#include "scenarios/bench/make_guard.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/bench/world_maker.hpp"
@@ -14,111 +12,59 @@ namespace ironbird::scenarios {
 
 namespace {
 
-using autopilot::Vector3;
-
 constexpr std::chrono::nanoseconds kProgressPeriod = std::chrono::seconds(1);
 
 }  // namespace
 
 Bench::Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, BenchOptions options)
-    : loaded_(loaded), scenario_(loaded.scenario), options_(std::move(options)) {
+    : loaded_(loaded), scenario_(loaded.scenario), options_(std::move(options)), playbook_(scenario_) {
   world_ = make_world(scenario_);
   fcu_ = std::make_unique<hil_bridge::VirtualFcu>(scenario_.fcu, *world_);
-  wire_autopilot(modules);
-  lockstep_ = std::make_unique<hil_bridge::Lockstep>(reached_fcu(), *autopilot_, scenario_.fcu.tick);
-  add_signals(signals_, world_->truth(), autopilot_->signals(), lockstep_->telemetry(),
+  autopilot_ = make_autopilot(loaded_, modules);
+  wire_unit();
+  add_signals(signals_, &world_->truth(), autopilot_->signals(), lockstep_->telemetry(),
               scenario_.vehicle.rotors.size());
   judge_ = std::make_unique<Judge>(scenario_.checks, signals_,
                                    RunMetrics::Sources{&world_->truth(), &autopilot_->signals()},
                                    scenario_.fcu.tick);
+  operator_ = std::make_unique<Operator>(loaded_, *autopilot_, *judge_);
   wire_script();
-  if (!options_.log_file.empty()) wire_record();
+  if (options_.log_file.empty()) return;
+  log_ = std::make_unique<FlightLog>(
+      options_.log_file,
+      McapOptions{.journal = scenario_.record.journal, .compress = scenario_.record.compress}, loaded_,
+      FlightLog::Sources{*autopilot_, lockstep_->telemetry(), &world_->truth()});
+  operator_->on_swap([this](const std::string& slot, const std::string& kind,
+                            const autopilot::Module& module) { log_->watch(slot, kind, module); });
 }
 
 Bench::~Bench() = default;
 
-hil_bridge::Fcu& Bench::reached_fcu() {
-  if (scenario_.fcu.kind == hil_bridge::FcuKind::kVirtual) return *fcu_;
-  const auto& parameters = fcu_->firmware().parameters();
-  const int system = parameters.integer(hil_bridge::virtual_fcu::find_parameter("SYS_ID"));
-  line_ = std::make_unique<hil_bridge::VirtualSerialFcu>(*fcu_, static_cast<std::uint8_t>(system), &gate_);
-  return *line_;
-}
-
-void Bench::wire_autopilot(const autopilot::Modules& modules) {
-  autopilot_ = std::make_unique<autopilot::Autopilot>(loaded_.autopilot, modules);
-  autopilot::for_each_slot([&](const auto& slot) {
-    const ModuleSettings* settings =
-        loaded_.settings_of(std::string(slot.name), (loaded_.autopilot.*slot.config).kind);
-    if (settings != nullptr) autopilot_->parameters().set_all(settings->values);
-  });
-  if (!scenario_.waypoints.empty()) {
-    ask(autopilot::RouteRequest(autopilot::SetRoute{scenario_.waypoints, scenario_.cyclic}), "route",
-        Time{0});
+/// The gate is the same as before a real unit. Who releases it is the simulated pilot, just before they arm.
+void Bench::wire_unit() {
+  const hil_bridge::InterlockConfig config = interlock_config(scenario_);
+  hil_bridge::Fcu* reached = fcu_.get();
+  if (scenario_.fcu.kind == FcuKind::kVirtual) {
+    unit_watch_ = std::make_unique<hil_bridge::OwnUnitWatch>(has_override_switches(scenario_));
+    guard_ = std::make_unique<hil_bridge::Guard>(config, *unit_watch_);
+  } else {
+    line_ = std::make_unique<hil_bridge::VirtualSerialFcu>(
+        *fcu_, static_cast<std::uint8_t>(unit_parameter(scenario_, "SYS_ID")));
+    unit_watch_ = std::make_unique<hil_bridge::LineUnitWatch>(line_->serial(), wanted_parameters(scenario_));
+    guard_ = std::make_unique<hil_bridge::Guard>(config, *unit_watch_);
+    line_->set_gate(*guard_);
+    reached = line_.get();
   }
-}
-
-void Bench::wire_record() {
-  RecorderOptions layout;
-  layout.file.journal = scenario_.record.journal;
-  layout.file.compress = scenario_.record.compress;
-  recorder_ = std::make_unique<Recorder>(options_.log_file, layout);
-  recorder_->metadata("run", {{"title", scenario_.title},
-                              {"source", scenario_.source},
-                              {"scenario", loaded_.name},
-                              {"vehicle", scenario_.vehicle_folder},
-                              {"field", scenario_.field},
-                              {"seed", std::to_string(scenario_.seed)},
-                              {"digest", loaded_.digest},
-                              {"version", IRONBIRD_VERSION},
-                              {"config", loaded_.effective_config}});
-  const autopilot::Signals& signals = autopilot_->signals();
-  const Time state = from_seconds(scenario_.record.state_period);
-  const Time slow = from_seconds(scenario_.record.signal_period);
-  recorder_->add("/truth/state", world_->truth(), state, Recorder::When::kAlways);
-  recorder_->add("/autopilot/estimate", signals.estimate, state);
-  if (scenario_.record.frames) {
-    recorder_->add("/autopilot/sensors", signals.sensors);
-    recorder_->add("/autopilot/command", signals.command);
-  }
-  recorder_->add("/autopilot/flight", signals.flight, slow);
-  recorder_->add("/autopilot/trajectory", signals.trajectory, slow);
-  recorder_->add("/autopilot/setpoint", signals.setpoint, slow);
-  const hil_bridge::Telemetry& telemetry = lockstep_->telemetry();
-  recorder_->add("/fcu/output_raw", telemetry.output_raw, slow);
-  recorder_->add("/fcu/status", telemetry.status, slow);
-  recorder_->add("/fcu/attitude", telemetry.attitude, slow);
-  recorder_->add("/fcu/battery", telemetry.battery, slow);
-  recorder_->add("/fcu/rc", telemetry.rc, slow);
-  wire_probes();
-}
-
-void Bench::wire_probes() {
-  probes_ = std::make_unique<ProbeRecorder>(*recorder_, from_seconds(scenario_.record.signal_period));
-  autopilot::for_each_slot([&](const auto& slot) {
-    probes_->watch(slot.name, (loaded_.autopilot.*slot.config).kind, (*autopilot_.*slot.module)());
-  });
+  lockstep_ = std::make_unique<hil_bridge::Lockstep>(*reached, *autopilot_, *guard_, scenario_.fcu.tick);
 }
 
 void Bench::wire_script() {
   if (scenario_.pilot.automatic) {
-    schedule("", scenario_.pilot.arm_at, {Deed::Kind::kArm, 0});
-    schedule("", scenario_.pilot.arm_at + PilotConfig::kHandOverDelay, {Deed::Kind::kHandOver, 0});
-    schedule("", scenario_.pilot.take_off_at, {Deed::Kind::kTakeOff, 0});
+    playbook_.add("", scenario_.pilot.arm_at, {Deed::Kind::kArm, 0});
+    playbook_.add("", scenario_.pilot.arm_at + PilotConfig::kHandOverDelay, {Deed::Kind::kHandOver, 0});
+    playbook_.add("", scenario_.pilot.take_off_at, {Deed::Kind::kTakeOff, 0});
   }
-  for (std::size_t i = 0; i < scenario_.events.size(); ++i) {
-    schedule(scenario_.events[i].after, scenario_.events[i].at, {Deed::Kind::kEvent, i});
-  }
-  for (std::size_t i = 0; i < scenario_.snapshots.size(); ++i) {
-    schedule(scenario_.snapshots[i].after, scenario_.snapshots[i].at, {Deed::Kind::kSnapshot, i});
-  }
-  schedule("", scenario_.duration, {Deed::Kind::kEnd, 0});
-  if (!scenario_.end_after.empty()) schedule(scenario_.end_after, scenario_.end_delay, {Deed::Kind::kEnd, 0});
-}
-
-void Bench::schedule(const std::string& after, double delay, Deed deed) {
-  script_.add(after, from_seconds(delay));
-  deeds_.push_back(deed);
+  playbook_.add_scenario();
 }
 
 Verdict Bench::fly() {
@@ -134,7 +80,7 @@ Verdict Bench::fly() {
       }
     }
   }
-  if (recorder_) recorder_->close();
+  if (log_) log_->close();
   return finish(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
@@ -144,12 +90,7 @@ Bench::Time Bench::tick() {
   watch(now);
   judge_->observe(now);
   if (published_events_ != judge_->events().size()) publish_events(now);
-  if (recorder_) {
-    // The truth goes on when the FCU hears nothing of it.
-    if (lockstep_->stepped()) probes_->observe(now);
-    recorder_->observe(now, lockstep_->stepped());
-    if (autopilot_->signals().route.revision != recorded_route_) record_route(now);
-  }
+  if (log_) log_->observe(now, lockstep_->stepped());
   return now;
 }
 
@@ -159,37 +100,38 @@ void Bench::watch(Time now) {
     const std::string_view words = hil_bridge::rosflight::text_of(text.text);
     if (texts_.is_news(words, now)) judge_->event(now, "fcu", std::string(words));
   }
+  watch_interlock(now);
   if (const char* failure = world_->failure()) {
     broken_promises_.emplace_back(std::string("the physics engine can no longer be believed: ") + failure);
     ended_ = true;
   }
 }
 
+/// The way up to live is no news in a simulation; a kill is.
+void Bench::watch_interlock(Time now) {
+  const bool killed = guard_->status().state == hil_bridge::InterlockState::kKilled;
+  if (killed && !killed_) judge_->event(now, "interlock", "killed: " + std::string(guard_->status().why));
+  killed_ = killed;
+}
+
 void Bench::publish_events(Time now) {
   const std::vector<RunEvent>& events = judge_->events();
   for (; published_events_ < events.size(); ++published_events_) {
     const RunEvent& event = events[published_events_];
-    // A picture's name or a text of the FCU is no event of the flight.
-    if (event.kind != "snapshot" && event.kind != "fcu") script_.happened(event.text, now);
-    script_.happened(event.kind + ":" + event.text, now);
+    playbook_.hear(event, now);
     const bool is_down = event.kind == "ground" && (event.text == "landed" || event.text == "crashed");
     if (scenario_.pilot.automatic && is_down) {
-      schedule("", to_seconds(now) + PilotConfig::kDisarmDelay, {Deed::Kind::kDisarm, 0});
+      playbook_.add_at(now + from_seconds(PilotConfig::kDisarmDelay), {Deed::Kind::kDisarm, 0});
     }
-    if (recorder_) recorder_->write_once("/bench/event", event, now);
+    if (log_) log_->event(event, now);
   }
-}
-
-void Bench::record_route(Time now) {
-  recorder_->write_once("/autopilot/route", autopilot_->signals().route, now);
-  recorded_route_ = autopilot_->signals().route.revision;
 }
 
 Verdict Bench::finish(double wall_seconds) {
   if (interrupted_) broken_promises_.emplace_back("the run was interrupted");
   Verdict verdict = judge_->finish({loaded_.name, scenario_.title, scenario_.seed, loaded_.digest},
-                                   {broken_promises_, gaps()}, wall_seconds);
-  if (!interrupted_) verdict.warnings = warnings();
+                                   {broken_promises_, playbook_.gaps(judge_->events())}, wall_seconds);
+  if (!interrupted_) verdict.warnings = playbook_.warnings(judge_->events());
   return verdict;
 }
 

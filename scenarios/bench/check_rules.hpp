@@ -12,8 +12,9 @@
 namespace ironbird::scenarios {
 
 /// Lists everything that a check can name. The structs stay where they are as long as the table is used.
+/// @param truth  null on a real vehicle: nothing of it is listed
 /// @param rotors  of the vehicle: speeds and outputs of others are not listed
-void add_signals(SignalTable& table, const simulator::Truth& truth, const autopilot::Signals& autopilot,
+void add_signals(SignalTable& table, const simulator::Truth* truth, const autopilot::Signals& autopilot,
                  const hil_bridge::Telemetry& fcu, std::size_t rotors);
 
 /// What is wrong with the scenario's checks: what no check could be made of, and events that can never

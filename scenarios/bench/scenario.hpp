@@ -12,6 +12,7 @@
 
 #include "autopilot/types/control_setpoint.hpp"
 #include "autopilot/types/mission.hpp"
+#include "hil_bridge/interlock/interlock.hpp"
 #include "hil_bridge/virtual_fcu/firmware_host.hpp"
 #include "scenarios/requirements/check_config.hpp"
 #include "simulator/environment/environment.hpp"
@@ -34,6 +35,49 @@ struct PlantConfig {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("engine", self.engine, "1", "mujoco, ode, or rigid_body (no contact)");
+  }
+};
+
+/// Which flight-control unit is flown, and how it is reached.
+enum class FcuKind : std::uint8_t {
+  kVirtual,        ///< the virtual one, by function call
+  kVirtualSerial,  ///< the virtual one, over a pseudo-terminal, as bytes, in lock-step
+  kSerial,         ///< one at the other end of a line, in real time: there is no world but the real one
+};
+
+constexpr std::array<std::pair<FcuKind, std::string_view>, 3> enumerators(FcuKind) {
+  return {{{FcuKind::kVirtual, "virtual"},
+           {FcuKind::kVirtualSerial, "virtual_serial"},
+           {FcuKind::kSerial, "serial"}}};
+}
+
+/// The flight-control unit: which one it is, and how the virtual one is set up.
+struct FcuConfig : hil_bridge::VirtualFcuConfig {
+  FcuKind kind = FcuKind::kVirtual;
+  std::string line;
+  int baud = 921600;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("kind", self.kind, "1", "virtual, virtual_serial, or serial: a real unit");
+    visit("line", self.line, "",
+          "serial: the unit's port, as /dev/serial/by-id/NAME, or udp:HOST:PORT; this side has port 14520");
+    visit("baud", self.baud, "Bd", "serial: rate of the port", 300.0, 4e6);
+    VirtualFcuConfig::describe(self, visit);
+  }
+};
+
+/// The gate through which motor commands leave. docs/safety.md
+struct InterlockChoice {
+  hil_bridge::InterlockProfile profile = hil_bridge::InterlockProfile::kFlight;
+  int greatest_missed = 10;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("profile", self.profile, "1", "what follows a kill: bench, zero thrust; flight, silence");
+    visit("greatest_missed", self.greatest_missed, "1",
+          "serial: so many control periods missed in a row kill; at most half of OFFBOARD_TIMEOUT", 1.0,
+          200.0);
   }
 };
 
@@ -283,7 +327,8 @@ struct Scenario {
   simulator::VehicleParams vehicle;
   simulator::EnvironmentParams environment;
   simulator::SensorSuiteParams sensors;
-  hil_bridge::VirtualFcuConfig fcu;
+  FcuConfig fcu;
+  InterlockChoice interlock;
   std::vector<autopilot::Waypoint> waypoints;
   std::vector<EventConfig> events;
   std::vector<CheckConfig> checks;
@@ -310,6 +355,7 @@ struct Scenario {
     visit("environment", self.environment, "", "air, wind, gravity, magnetic field");
     visit("sensors", self.sensors, "", "the vehicle's sensors");
     visit("fcu", self.fcu, "", "the flight-control unit");
+    visit("interlock", self.interlock, "", "the gate through which motor commands leave");
     visit("waypoint", self.waypoints, "", "the mission, one table each");
     visit("event", self.events, "", "what happens, one table each");
     visit("check", self.checks, "", "what must hold, one table each");

@@ -11,6 +11,7 @@
 #include "scenarios/bench/check_rules.hpp"
 #include "scenarios/bench/event_names.hpp"
 #include "scenarios/bench/event_rules.hpp"
+#include "scenarios/bench/live_rules.hpp"
 #include "scenarios/bench/model_files.hpp"
 #include "scenarios/config/nearest_name.hpp"
 
@@ -43,6 +44,7 @@ class Rules {
     check_snapshots();
     report_all(event_findings(loaded_));
     report_all(check_findings(loaded_));
+    if (loaded_.scenario.fcu.kind == FcuKind::kSerial) report_all(live_findings(loaded_));
     return findings_;
   }
 

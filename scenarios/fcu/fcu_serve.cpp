@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "hil_bridge/executive/real_time_rights.hpp"
 #include "hil_bridge/transport/pseudo_terminal.hpp"
 #include "hil_bridge/transport/udp_socket.hpp"
 #include "scenarios/app/exit_code.hpp"
@@ -89,6 +90,10 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
   ServedUnit unit(loaded.scenario, *line.stream);
   std::fprintf(stderr, "serving %s; connect with: ironbird fcu info %s; Ctrl-C ends\n",
                loaded.scenario.vehicle_folder.c_str(), line.how_to_reach.c_str());
+  // A board has its processor for itself.
+  if (const std::string missing = hil_bridge::take_real_time_rights(); !missing.empty()) {
+    std::fprintf(stderr, "%s\n", missing.c_str());
+  }
   const bool interactive = Terminal::of_standard_error().interactive;
   const Time end = from_seconds(arguments.duration);
   Time next = clock_now();

@@ -10,6 +10,7 @@
 #include "hil_bridge/transport/serial_port.hpp"
 #include "hil_bridge/transport/udp_socket.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/bench/meeting.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/config/config_error.hpp"
 
@@ -93,7 +94,6 @@ void UnitOnLine::step() {
   fcu_.advance(time);
   heard_.clear();
   fcu_.receive(heard_);
-  messages_ += heard_.size();
   if (!ear_) return;
   for (const hil_bridge::Arrival& arrival : heard_) ear_(arrival);
 }
@@ -120,18 +120,7 @@ void UnitOnLine::meet() {
   const std::string where = line_->name() + ": ";
   if (connection.state() == ConnectionState::kRefused) throw LinkError(where + connection.refusal());
   if (met) return;
-  const hil_bridge::LinkHealth link = health();
-  if (messages_ == 0) {
-    throw LinkError(
-        where +
-        (link.foreign + link.corrupted > 0
-             ? "bytes come, but no frame of ROSflight 2.0; is the baud rate right, and is this the unit?"
-             : "nothing is heard; is the unit powered, and is this its port?"));
-  }
-  const auto& progress = connection.parameters().progress();
-  throw LinkError(where + "it is heard, but in " + std::to_string(static_cast<int>(address_.patience)) +
-                  " s it told " + (connection.version().empty() ? "no version and " : "its version and ") +
-                  std::to_string(progress.known) + " of its parameters; try again with a greater --patience");
+  throw LinkError(where + why_not_met(fcu_, now(), address_.patience));
 }
 
 bool UnitOnLine::keep() {

@@ -72,7 +72,6 @@ class UnitOnLine {
   hil_bridge::SerialFcu fcu_;
   std::vector<hil_bridge::Arrival> heard_;
   std::function<void(const hil_bridge::Arrival&)> ear_;
-  std::uint64_t messages_ = 0;
 };
 
 }  // namespace ironbird::scenarios

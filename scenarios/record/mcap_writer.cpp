@@ -37,7 +37,7 @@ struct McapWriter::Compressor {
 };
 
 McapWriter::McapWriter(const std::filesystem::path& path, const McapOptions& options)
-    : file_(path), options_(options) {
+    : file_(path, options.in_background), options_(options) {
   if (options.chunk_size < 1024) {
     throw std::invalid_argument("chunk_size = " + std::to_string(options.chunk_size) + ", must be >= 1024");
   }
@@ -141,8 +141,8 @@ void McapWriter::note_message(std::uint64_t offset) {
 }
 
 void McapWriter::write_out(std::span<const std::uint8_t> first, std::span<const std::uint8_t> second) {
-  data_crc_ = crc32(second, crc32(first, data_crc_));
-  file_.write(first, second);
+  const std::uint32_t crc = crc32(second, crc32(first, data_crc_));
+  if (file_.write(first, second)) data_crc_ = crc;
 }
 
 std::uint32_t McapWriter::put_chunk_head(ByteBuffer& out, std::size_t uncompressed, std::size_t stored) {

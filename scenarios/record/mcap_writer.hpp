@@ -22,6 +22,7 @@ struct McapOptions {
   /// costs at most `flush_interval` of messages.
   bool journal = false;
   bool compress = false;
+  bool in_background = false;
   std::uint32_t chunk_size = 64 * 1024;
   std::chrono::nanoseconds flush_interval = std::chrono::milliseconds(100);
 
@@ -29,6 +30,8 @@ struct McapOptions {
   static void describe(Self& self, Visit&& visit) {
     visit("journal", self.journal, "1", "write message by message instead of in chunks");
     visit("compress", self.compress, "1", "compress each chunk with zstd, level 1");
+    visit("in_background", self.in_background, "1",
+          "a thread of its own writes to the disk: whoever records never waits for it");
     visit("chunk_size", self.chunk_size, "1", "most bytes of messages in a chunk", 1024.0, 16777216.0);
     visit("flush_interval", self.flush_interval, "ns", "most time a journal keeps messages in memory", 0.0,
           1e10);
@@ -69,6 +72,8 @@ class McapWriter {
 
   /// Messages given so far.
   std::uint64_t message_count() const { return message_count_; }
+  /// Bytes that were left out because the disk was too slow; always 0 unless in the background.
+  std::uint64_t lost() const { return file_.lost(); }
   /// Bytes in the file so far.
   std::uint64_t file_size() const { return file_.size(); }
 

@@ -22,19 +22,26 @@ UserError failure(const std::filesystem::path& path, const char* what, int reaso
 
 }  // namespace
 
-OutputFile::OutputFile(const std::filesystem::path& path) : path_(path) {
+OutputFile::OutputFile(const std::filesystem::path& path, bool in_background) : path_(path) {
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw failure(path_, "cannot be made", errno);
+  if (in_background) background_ = std::make_unique<BackgroundWriter>(descriptor_);
 }
 
 OutputFile::~OutputFile() {
+  background_.reset();
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void OutputFile::write(std::span<const std::uint8_t> first, std::span<const std::uint8_t> second) {
-  if (failed_) return;
+bool OutputFile::write(std::span<const std::uint8_t> first, std::span<const std::uint8_t> second) {
+  if (failed_) return false;
   std::uint64_t written = 0;
   const std::uint64_t wanted = first.size() + second.size();
+  if (background_) {
+    const bool taken = background_->put(first, second);
+    (taken ? size_ : lost_) += wanted;
+    return taken;
+  }
   while (written < wanted) {
     const auto of_first = first.subspan(std::min<std::uint64_t>(written, first.size()));
     const auto of_second = second.subspan(written > first.size() ? written - first.size() : 0);
@@ -52,13 +59,20 @@ void OutputFile::write(std::span<const std::uint8_t> first, std::span<const std:
     written += static_cast<std::uint64_t>(count);
   }
   size_ += wanted;
+  return true;
 }
 
 void OutputFile::close() {
   if (descriptor_ < 0) return;
+  const int failed_write = background_ ? background_->finish() : 0;
+  background_.reset();
   const int result = ::close(descriptor_);
   const int reason = errno;
   descriptor_ = -1;
+  if (failed_write != 0) {
+    failed_ = true;
+    throw failure(path_, "writing failed", failed_write);
+  }
   if (result != 0 && !failed_) {
     failed_ = true;
     throw failure(path_, "closing failed", reason);

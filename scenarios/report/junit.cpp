@@ -46,15 +46,18 @@ std::string suite_of(const JunitRun& run) {
   const Verdict verdict = run.verdict.value_or(Verdict{});
   const std::string wrong = run_error(run);
   const std::size_t extra = wrong.empty() ? 0 : 1;
+  const std::size_t skipped = count_of(verdict, Outcome::kNotJudged);
   std::string out = "  <testsuite" + attribute("name", run.name) +
                     attribute("tests", std::to_string(verdict.checks.size() + extra)) +
                     attribute("failures", std::to_string(count_of(verdict, Outcome::kFail))) +
                     attribute("errors", std::to_string(count_of(verdict, Outcome::kInconclusive) + extra)) +
+                    (skipped == 0 ? "" : attribute("skipped", std::to_string(skipped))) +
                     attribute("time", simulated(verdict)) + ">\n";
   for (const CheckResult& check : verdict.checks) {
-    const char* problem = check.outcome == Outcome::kPass   ? ""
-                          : check.outcome == Outcome::kFail ? "failure"
-                                                            : "error";
+    const char* problem = check.outcome == Outcome::kPass        ? ""
+                          : check.outcome == Outcome::kFail      ? "failure"
+                          : check.outcome == Outcome::kNotJudged ? "skipped"
+                                                                 : "error";
     out += test_case(check.name, run.name, problem, check.explanation);
   }
   if (!wrong.empty()) out += test_case("the run", run.name, "error", wrong);

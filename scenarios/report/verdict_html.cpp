@@ -46,6 +46,7 @@ std::string summary_line(const Verdict& verdict) {
                      (verdict.checks.size() == 1 ? " check holds" : " checks hold");
   if (const auto failed = count(Outcome::kFail)) line += ", " + std::to_string(failed) + " failed";
   if (const auto open = count(Outcome::kInconclusive)) line += ", " + std::to_string(open) + " inconclusive";
+  if (const auto open = count(Outcome::kNotJudged)) line += ", " + std::to_string(open) + " not judged";
   return line + ".";
 }
 

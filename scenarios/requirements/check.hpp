@@ -30,7 +30,7 @@ struct CheckResult {
   static void describe(Self& self, Visit&& visit) {
     visit("name", self.name, "", "what was required");
     visit("kind", self.kind, "", "kind of assertion, by its key in the scenario file");
-    visit("outcome", self.outcome, "1", "pass, fail or inconclusive");
+    visit("outcome", self.outcome, "1", "pass, fail, inconclusive or not judged");
     visit("margin", self.margin, "SI", "distance to failing, in `unit`; negative: failed; NaN: none");
     visit("unit", self.unit, "", "unit of the margin");
     visit("time", self.time, "s", "when the margin was least; NaN: no single time");

@@ -1,7 +1,10 @@
 #include "scenarios/requirements/judge.hpp"
 
+#include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "scenarios/requirements/assertions.hpp"
 
 namespace ironbird::scenarios {
 
@@ -11,16 +14,31 @@ double seconds_of(std::chrono::nanoseconds time) {
   return static_cast<double>(time.count()) * 1e-9;
 }
 
+CheckResult not_judged_result(const CheckConfig& check, const std::string& reason) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  CheckResult result;
+  result.kind = kind_of(check);
+  result.name = check.name.empty() ? result.kind : check.name;
+  result.outcome = Outcome::kNotJudged;
+  result.margin = result.time = kNone;
+  result.explanation = reason;
+  return result;
+}
+
 }  // namespace
 
 Judge::Judge(const std::vector<CheckConfig>& checks, const SignalTable& signals, RunMetrics::Sources sources,
-             Time tick)
+             Time tick, std::vector<std::string> not_judged)
     : metrics_(sources), detector_(*sources.autopilot) {
   const CheckContext context{&signals, sources.autopilot, seconds_of(tick)};
   checks_.reserve(checks.size());
   for (std::size_t i = 0; i < checks.size(); ++i) {
     try {
-      checks_.emplace_back(checks[i], context);
+      if (i < not_judged.size() && !not_judged[i].empty()) {
+        checks_.emplace_back(not_judged_result(checks[i], not_judged[i]));
+      } else {
+        checks_.emplace_back(std::in_place_type<Check>, checks[i], context);
+      }
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(complaint_at("check[" + std::to_string(i) + "]", error.what()));
     }
@@ -35,7 +53,9 @@ void Judge::observe(Time now) {
   const double time = seconds_of(now);
   detector_.observe(time, timeline_);
   metrics_.observe(now);
-  for (Check& check : checks_) check.observe(time, timeline_);
+  for (auto& each : checks_) {
+    if (auto* check = std::get_if<Check>(&each)) check->observe(time, timeline_);
+  }
 }
 
 Verdict Judge::finish(const RunIdentity& run, const RunFlaws& flaws, double wall_seconds) {
@@ -44,7 +64,10 @@ Verdict Judge::finish(const RunIdentity& run, const RunFlaws& flaws, double wall
   verdict.run = run;
   verdict.metrics = metrics_.results();
   const RunFacts facts{timeline_, verdict.metrics};
-  for (const Check& check : checks_) verdict.checks.push_back(check.result(facts));
+  for (const auto& each : checks_) {
+    const auto* check = std::get_if<Check>(&each);
+    verdict.checks.push_back(check != nullptr ? check->result(facts) : std::get<CheckResult>(each));
+  }
   verdict.events = timeline_.events();
   conclude(verdict, flaws);
   return verdict;

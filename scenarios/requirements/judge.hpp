@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "autopilot/signals.hpp"
@@ -23,9 +24,10 @@ class Judge {
   /// @param signals  every struct that checks may name; outlives the judge
   /// @param sources  what the metrics are taken from; outlive the judge
   /// @param tick     time between two calls of observe(), > 0
+  /// @param not_judged  for each check the reason why it cannot be judged, or empty; shorter: the rest can
   /// @throws std::invalid_argument naming the check that does not fit
   Judge(const std::vector<CheckConfig>& checks, const SignalTable& signals, RunMetrics::Sources sources,
-        Time tick);
+        Time tick, std::vector<std::string> not_judged = {});
 
   /// Reports something that happened outside the autopilot, for example the beginning of a fault.
   void event(Time now, std::string kind, std::string text);
@@ -43,7 +45,8 @@ class Judge {
   RunMetrics metrics_;
   EventDetector detector_;
   Timeline timeline_;
-  std::vector<Check> checks_;
+  /// A check, or what is said of one that cannot be judged.
+  std::vector<std::variant<Check, CheckResult>> checks_;
 };
 
 }  // namespace ironbird::scenarios

@@ -12,14 +12,16 @@ enum class Outcome : std::uint8_t {
   kPass,
   kFail,
   kInconclusive,  ///< what should have been judged did not occur
-  kInvalid        ///< the bench broke one of its own promises: nothing can be said
+  kInvalid,       ///< the bench broke one of its own promises: nothing can be said
+  kNotJudged      ///< a check that this wiring cannot judge; never of a run
 };
 
-constexpr std::array<std::pair<Outcome, std::string_view>, 4> enumerators(Outcome) {
+constexpr std::array<std::pair<Outcome, std::string_view>, 5> enumerators(Outcome) {
   return {{{Outcome::kPass, "pass"},
            {Outcome::kFail, "fail"},
            {Outcome::kInconclusive, "inconclusive"},
-           {Outcome::kInvalid, "invalid"}}};
+           {Outcome::kInvalid, "invalid"},
+           {Outcome::kNotJudged, "not judged"}}};
 }
 
 constexpr std::string_view name_of(Outcome outcome) {

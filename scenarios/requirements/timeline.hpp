@@ -23,6 +23,9 @@ inline constexpr std::array<std::string_view, 2> kDoubtEvents{"doubtful", "sure"
 inline constexpr std::string_view kLiftedOff = "lifted_off";
 inline constexpr std::array<std::string_view, 3> kGroundEvents{kLiftedOff, "landed", "crashed"};
 
+/// Kind of the event that a request was not accepted.
+inline constexpr std::string_view kRefusedEvent = "refused";
+
 /// Something that happened in a run.
 struct RunEvent {
   double time = 0.0;

@@ -19,10 +19,15 @@ void conclude(Verdict& verdict, const RunFlaws& flaws) {
     return;
   }
   verdict.reasons = flaws.gaps;
-  if (verdict.checks.empty()) verdict.reasons.emplace_back("the scenario has no checks");
+  const auto not_judged = [](const CheckResult& check) { return check.outcome == Outcome::kNotJudged; };
+  if (verdict.checks.empty()) {
+    verdict.reasons.emplace_back("the scenario has no checks");
+  } else if (std::all_of(verdict.checks.begin(), verdict.checks.end(), not_judged)) {
+    verdict.reasons.push_back("none of its checks can be judged: " + verdict.checks.front().explanation);
+  }
   verdict.outcome = verdict.reasons.empty() ? Outcome::kPass : Outcome::kInconclusive;
   for (const CheckResult& check : verdict.checks) {
-    if (check.outcome == Outcome::kPass) continue;
+    if (check.outcome == Outcome::kPass || not_judged(check)) continue;
     verdict.reasons.push_back(reason_of(check));
     if (verdict.outcome != Outcome::kFail) verdict.outcome = check.outcome;
   }

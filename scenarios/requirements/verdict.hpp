@@ -61,9 +61,9 @@ struct RunFlaws {
   }
 };
 
-/// Finds outcome and reasons: invalid if a promise was broken, else the worst of the checks. A run without a
-/// check is inconclusive, nothing was asked of it; so is a run with a gap that its checks pass: it did not
-/// show what its scenario is about.
+/// Finds outcome and reasons: invalid if a promise was broken, else the worst of the checks that could be
+/// judged. A run without any is inconclusive, nothing was asked of it; so is a run with a gap that its checks
+/// pass: it did not show what its scenario is about.
 void conclude(Verdict& verdict, const RunFlaws& flaws);
 
 /// The reasons that no check gives: broken promises, gaps, that there are no checks.

@@ -127,8 +127,12 @@ std::string verdict_table(const Verdict& verdict, bool colour, std::size_t colum
   }
   const auto held = std::count_if(verdict.checks.begin(), verdict.checks.end(),
                                   [](const CheckResult& check) { return check.outcome == Outcome::kPass; });
+  const auto open = std::count_if(verdict.checks.begin(), verdict.checks.end(), [](const CheckResult& check) {
+    return check.outcome == Outcome::kNotJudged;
+  });
   out += painted(std::string(name_of(verdict.outcome)), verdict.outcome, colour) + ": " +
-         std::to_string(held) + " of " + std::to_string(verdict.checks.size()) + " checks hold\n";
+         std::to_string(held) + " of " + std::to_string(verdict.checks.size()) + " checks hold" +
+         (open > 0 ? ", " + std::to_string(open) + " not judged" : "") + "\n";
   for (const std::string& reason : reasons_of_the_run(verdict))
     out += "  " + wrapped(reason, 2, columns) + "\n";
   for (const std::string& warning : verdict.warnings)

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "hil_bridge/executive/test/live_guard.hpp"
 #include "hil_bridge/virtual_fcu/virtual_fcu.hpp"
 #include "simulator/plant/rigid_body_plant.hpp"
 
@@ -111,12 +112,13 @@ class LockstepTest : public ::testing::Test {
 
   ScriptedFcu fcu;
   std::unique_ptr<Autopilot> pilot = telling_autopilot();
-  Lockstep lockstep{fcu, *pilot, kTick};
+  test::LiveGuard live;
+  Lockstep lockstep{fcu, *pilot, live.guard, kTick};
 };
 
 TEST_F(LockstepTest, RefusesAPeriodThatIsNoTime) {
-  EXPECT_THROW(Lockstep(fcu, *pilot, Time{0}), std::invalid_argument);
-  EXPECT_THROW(Lockstep(fcu, *pilot, -kTick), std::invalid_argument);
+  EXPECT_THROW(Lockstep(fcu, *pilot, live.guard, Time{0}), std::invalid_argument);
+  EXPECT_THROW(Lockstep(fcu, *pilot, live.guard, -kTick), std::invalid_argument);
 }
 
 TEST_F(LockstepTest, CountsTimeInWholePeriods) {
@@ -233,7 +235,8 @@ TEST_P(LatencyTest, TurnsRotorsOneTickAndBothLatenciesAfterTheSample) {
                        {"RC_OVRD_LAG_T", 0}};
   VirtualFcu fcu(config, world);
   const std::unique_ptr<Autopilot> pilot = telling_autopilot();
-  Lockstep lockstep(fcu, *pilot, kTick);
+  test::LiveGuard live;
+  Lockstep lockstep(fcu, *pilot, live.guard, kTick);
   fcu.pilot().arm(true);
   for (int k = 0; k < 8; ++k) lockstep.tick();
   fcu.pilot().override_companion(false);

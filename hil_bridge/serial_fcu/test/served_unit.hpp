@@ -1,8 +1,10 @@
 #pragma once
 
+#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "hil_bridge/serial_fcu/serial_fcu.hpp"
 #include "hil_bridge/transport/link_fault.hpp"
@@ -57,6 +59,19 @@ inline transport::LinkFaultConfig losing(double share) {
   faults.drop = share;
   faults.byte_rate = kByteRate;
   return {faults, {}};
+}
+
+inline rosflight::ParamSet setting(std::string_view name, std::uint32_t bits, std::uint8_t type) {
+  return {.param_value = {bits},
+          .target_system = 1,
+          .param_id = rosflight::field_of<16>(name),
+          .param_type = type};
+}
+inline rosflight::ParamSet setting(std::string_view name, float value) {
+  return setting(name, std::bit_cast<std::uint32_t>(value), kRealParameter);
+}
+inline rosflight::ParamSet setting(std::string_view name, int value) {
+  return setting(name, std::bit_cast<std::uint32_t>(value), kIntegerParameter);
 }
 
 /// Both ends, ticking together.

@@ -1,0 +1,71 @@
+#include "scenarios/bench/flight_log.hpp"
+
+#include "scenarios/bench/run_time.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+RecorderOptions layout_of(const McapOptions& file) {
+  RecorderOptions layout;
+  layout.file = file;
+  return layout;
+}
+
+}  // namespace
+
+FlightLog::FlightLog(const std::filesystem::path& path, const McapOptions& file, const LoadedScenario& loaded,
+                     const Sources& sources)
+    : sources_(sources),
+      recorder_(path, layout_of(file)),
+      probes_(recorder_, from_seconds(loaded.scenario.record.signal_period)) {
+  const Scenario& scenario = loaded.scenario;
+  recorder_.metadata("run", {{"title", scenario.title},
+                             {"source", scenario.source},
+                             {"scenario", loaded.name},
+                             {"vehicle", scenario.vehicle_folder},
+                             {"field", scenario.field},
+                             {"seed", std::to_string(scenario.seed)},
+                             {"digest", loaded.digest},
+                             {"version", IRONBIRD_VERSION},
+                             {"config", loaded.effective_config}});
+  add_topics(loaded);
+}
+
+void FlightLog::add_topics(const LoadedScenario& loaded) {
+  const RecordConfig& record = loaded.scenario.record;
+  const autopilot::Signals& signals = sources_.autopilot.signals();
+  const hil_bridge::Telemetry& fcu = sources_.fcu;
+  const Time state = from_seconds(record.state_period);
+  const Time slow = from_seconds(record.signal_period);
+  if (sources_.truth != nullptr)
+    recorder_.add("/truth/state", *sources_.truth, state, Recorder::When::kAlways);
+  recorder_.add("/autopilot/estimate", signals.estimate, state);
+  if (record.frames) {
+    recorder_.add("/autopilot/sensors", signals.sensors);
+    recorder_.add("/autopilot/command", signals.command);
+  }
+  recorder_.add("/autopilot/flight", signals.flight, slow);
+  recorder_.add("/autopilot/trajectory", signals.trajectory, slow);
+  recorder_.add("/autopilot/setpoint", signals.setpoint, slow);
+  recorder_.add("/fcu/output_raw", fcu.output_raw, slow);
+  recorder_.add("/fcu/status", fcu.status, slow);
+  recorder_.add("/fcu/attitude", fcu.attitude, slow);
+  recorder_.add("/fcu/battery", fcu.battery, slow);
+  recorder_.add("/fcu/rc", fcu.rc, slow);
+  autopilot::for_each_slot([&](const auto& slot) {
+    probes_.watch(slot.name, (loaded.autopilot.*slot.config).kind, (sources_.autopilot.*slot.module)());
+  });
+}
+
+void FlightLog::observe(Time now, bool stepped) {
+  // The truth goes on when the FCU hears nothing of it.
+  if (stepped) probes_.observe(now);
+  recorder_.observe(now, stepped);
+  const autopilot::Route& route = sources_.autopilot.signals().route;
+  if (route.revision == recorded_route_) return;
+  recorder_.write_once("/autopilot/route", route, now);
+  recorded_route_ = route.revision;
+}
+
+}  // namespace ironbird::scenarios

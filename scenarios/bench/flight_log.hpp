@@ -1,0 +1,55 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "autopilot/autopilot.hpp"
+#include "hil_bridge/translate/telemetry.hpp"
+#include "scenarios/bench/probe_recorder.hpp"
+#include "scenarios/bench/scenario_loader.hpp"
+#include "scenarios/record/recorder.hpp"
+#include "scenarios/requirements/timeline.hpp"
+#include "simulator/types/truth.hpp"
+
+namespace ironbird::scenarios {
+
+/// The log of one run, as its scenario wants it.
+class FlightLog {
+ public:
+  using Time = std::chrono::nanoseconds;
+
+  /// What is watched; all outlive the log.
+  struct Sources {
+    const autopilot::Autopilot& autopilot;
+    const hil_bridge::Telemetry& fcu;
+    const simulator::Truth* truth;  ///< null on a real vehicle
+  };
+
+  /// @param file  how it is laid out
+  /// @throws std::runtime_error when the file cannot be made
+  FlightLog(const std::filesystem::path& path, const McapOptions& file, const LoadedScenario& loaded,
+            const Sources& sources);
+
+  /// To be called after every tick. @param stepped  the autopilot worked in it
+  void observe(Time now, bool stepped);
+  void event(const RunEvent& event, Time now) { recorder_.write_once("/bench/event", event, now); }
+  /// From now on `module` flies in `slot`.
+  void watch(const std::string& slot, const std::string& kind, const autopilot::Module& module) {
+    probes_.watch(slot, kind, module);
+  }
+  Recorder& recorder() { return recorder_; }
+  void close() { recorder_.close(); }
+
+ private:
+  void add_topics(const LoadedScenario& loaded);
+
+  Sources sources_;
+  Recorder recorder_;
+  ProbeRecorder probes_;
+  std::uint32_t recorded_route_ = 0;
+};
+
+}  // namespace ironbird::scenarios

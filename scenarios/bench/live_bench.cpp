@@ -1,0 +1,214 @@
+#include "scenarios/bench/live_bench.hpp"
+
+#include <utility>
+
+#include "scenarios/bench/check_rules.hpp"
+#include "scenarios/bench/live_rules.hpp"
+#include "scenarios/bench/make_guard.hpp"
+#include "scenarios/bench/meeting.hpp"
+#include "scenarios/bench/run_time.hpp"
+
+namespace ironbird::scenarios {
+
+using hil_bridge::InterlockState;
+using hil_bridge::transport::LinkError;
+
+namespace {
+
+constexpr std::chrono::nanoseconds kLookPeriod = std::chrono::milliseconds(50);
+// After a kill the run goes on for the log until the unit is disarmed, or has been silent for so long.
+constexpr std::chrono::nanoseconds kGoneForGood = std::chrono::seconds(5);
+constexpr std::chrono::nanoseconds kSettled = std::chrono::milliseconds(500);
+constexpr std::chrono::nanoseconds kTimingPeriod = std::chrono::seconds(1);
+
+}  // namespace
+
+LiveBench::LiveBench(const LoadedScenario& loaded, const autopilot::Modules& modules,
+                     const LiveOptions& options, hil_bridge::transport::ByteStream& line,
+                     hil_bridge::Clock& clock)
+    : loaded_(loaded),
+      scenario_(loaded.scenario),
+      options_(options),
+      line_(line),
+      playbook_(scenario_),
+      arm_at_(from_seconds(scenario_.pilot.arm_at)) {
+  const auto system = static_cast<std::uint8_t>(unit_parameter(scenario_, "SYS_ID"));
+  fcu_ = std::make_unique<hil_bridge::SerialFcu>(line, hil_bridge::ConnectionConfig{.system = system});
+  unit_watch_ = std::make_unique<hil_bridge::LineUnitWatch>(*fcu_, wanted_parameters(scenario_));
+  guard_ = std::make_unique<hil_bridge::Guard>(interlock_config(scenario_), *unit_watch_);
+  fcu_->set_gate(*guard_);
+  autopilot_ = make_autopilot(loaded_, modules);
+  realtime_ = std::make_unique<hil_bridge::Realtime>(
+      *fcu_, *autopilot_, *guard_, line, clock,
+      hil_bridge::RealtimeConfig{scenario_.fcu.tick, scenario_.interlock.greatest_missed});
+  wire_judge();
+  operator_ = std::make_unique<Operator>(loaded_, *autopilot_, *judge_);
+  playbook_.add_scenario();
+  if (!options_.log_file.empty()) wire_log(options_);
+}
+
+LiveBench::~LiveBench() {
+  close_gate();
+}
+
+void LiveBench::wire_judge() {
+  add_signals(signals_, nullptr, autopilot_->signals(), realtime_->telemetry(),
+              scenario_.vehicle.rotors.size());
+  std::vector<std::string> not_judged;
+  for (const CheckConfig& check : scenario_.checks) not_judged.push_back(why_not_judged(check));
+  judge_ = std::make_unique<Judge>(scenario_.checks, signals_,
+                                   RunMetrics::Sources{nullptr, &autopilot_->signals()}, scenario_.fcu.tick,
+                                   std::move(not_judged));
+}
+
+void LiveBench::wire_log(const LiveOptions& options) {
+  log_ =
+      std::make_unique<FlightLog>(options.log_file, McapOptions{.journal = true, .in_background = true},
+                                  loaded_, FlightLog::Sources{*autopilot_, realtime_->telemetry(), nullptr});
+  log_->recorder().add("/bench/timing", realtime_->timing(), kTimingPeriod, Recorder::When::kAlways);
+  operator_->on_swap([this](const std::string& slot, const std::string& kind,
+                            const autopilot::Module& module) { log_->watch(slot, kind, module); });
+}
+
+LiveBench::Time LiveBench::pass() {
+  const Time now = realtime_->pass();
+  watch_interlock(now);
+  pass_wishes_on(now);
+  if (now >= next_look_) {
+    next_look_ = now + kLookPeriod;
+    if (!live_since_) look_after_meeting(now);
+    if (state_ == InterlockState::kLive) ask_for_take_off(now);
+    show(now);
+  }
+  follow_script(now);
+  watch(now);
+  ended_ = ended_ || stop_ || is_over(now);
+  return now;
+}
+
+void LiveBench::watch(Time now) {
+  for (const auto& text : realtime_->texts()) {
+    const std::string_view words = hil_bridge::rosflight::text_of(text.text);
+    if (texts_.is_news(words, now)) judge_->event(now, "fcu", std::string(words));
+  }
+  // Passes for other bytes than an IMU frame's tell nothing new, but silence must not go unseen.
+  if (!realtime_->stepped() && now - observed_ < scenario_.fcu.tick) return;
+  observed_ = now;
+  if (const auto felt = ground_.observe(autopilot_->signals()))
+    judge_->event(now, "ground", std::string(*felt));
+  judge_->observe(now);
+  if (published_events_ != judge_->events().size()) publish_events(now);
+  if (log_) log_->observe(now, realtime_->stepped());
+}
+
+void LiveBench::watch_interlock(Time now) {
+  const hil_bridge::InterlockStatus& status = guard_->status();
+  if (status.state == state_) return;
+  state_ = status.state;
+  state_since_ = now;
+  judge_->event(now, "interlock", std::string(name_of(state_)) + ": " + std::string(status.why));
+  was_verified_ = was_verified_ || state_ == InterlockState::kVerified;
+  if (state_ == InterlockState::kLive && !live_since_) live_since_ = now;
+  if (state_ == InterlockState::kKilled) {
+    killed_since_ = now;
+    why_killed_ = status.why;
+  }
+}
+
+/// A word on the terminal counts once; one given beforehand, when the unit has been in order for a while.
+void LiveBench::pass_wishes_on(Time now) {
+  const bool settled = state_ == InterlockState::kVerified && now - state_since_ >= kSettled;
+  const bool release = release_.exchange(false) || (options_.released && settled);
+  guard_->want({.release = release && !live_since_});
+}
+
+void LiveBench::look_after_meeting(Time now) {
+  const hil_bridge::Connection& connection = fcu_->connection();
+  const std::string where = line_.name() + ": ";
+  if (connection.state() == hil_bridge::ConnectionState::kRefused)
+    throw LinkError(where + connection.refusal());
+  met_ = met_ || connection.state() == hil_bridge::ConnectionState::kReady;
+  if (!met_ && now > from_seconds(options_.meeting_patience)) {
+    throw LinkError(where + why_not_met(*fcu_, now, options_.meeting_patience));
+  }
+  const hil_bridge::InterlockInputs& in = guard_->inputs();
+  if (met_ && in.unit_known && !in.parameters_equal) throw LinkError(where + differences_text());
+  const bool waits = options_.verified_patience > 0.0 && !was_verified_;
+  if (waits && now > from_seconds(options_.verified_patience)) {
+    throw LinkError(where + "the unit is not ready to be flown: " + what_is_missing(in));
+  }
+}
+
+std::string LiveBench::differences_text() const {
+  return text_about(unit_watch_->different(), scenario_.fcu.line);
+}
+
+void LiveBench::follow_script(Time now) {
+  if (!live_since_) return;
+  while (const auto deed = playbook_.next_due(own_time(now))) {
+    if (deed->kind == Deed::Kind::kEnd) {
+      ended_ = true;
+    } else if (deed->kind == Deed::Kind::kEvent && !scenario_.events[deed->index].pilot) {
+      operator_->perform(scenario_.events[deed->index], now);
+    }
+  }
+}
+
+/// A request is granted at once or never; this one is repeated until the pilot lets it.
+void LiveBench::ask_for_take_off(Time now) {
+  if (took_off_ || !scenario_.pilot.automatic) return;
+  const autopilot::RequestOutcome outcome = autopilot_->request(autopilot::TakeOff{});
+  waits_for_pilot_ = !outcome.accepted;
+  if (!outcome.accepted) return;
+  took_off_ = true;
+  judge_->event(now, "request", "take_off");
+}
+
+void LiveBench::publish_events(Time now) {
+  const std::vector<RunEvent>& events = judge_->events();
+  for (; published_events_ < events.size(); ++published_events_) {
+    if (live_since_) playbook_.hear(events[published_events_], own_time(now));
+    if (log_) log_->event(events[published_events_], now);
+  }
+}
+
+void LiveBench::show(Time now) {
+  LiveView view;
+  view.time = to_seconds(now);
+  view.flown = live_since_ ? to_seconds(own_time(now)) : 0.0;
+  view.height = -autopilot_->signals().estimate.p_NB_N.z();
+  view.state = state_;
+  view.inputs = guard_->inputs();
+  view.parameters_known = fcu_->connection().parameters().progress().known;
+  view.waits_for_pilot = waits_for_pilot_;
+  view_.write(view);
+}
+
+bool LiveBench::is_over(Time now) const {
+  if (!killed_since_) return false;
+  const hil_bridge::InterlockInputs& in = guard_->inputs();
+  return (in.unit_disarmed && !in.unit_armed) || now - *killed_since_ > kGoneForGood;
+}
+
+void LiveBench::close_gate() {
+  guard_->close(realtime_->now());
+}
+
+Verdict LiveBench::finish(double wall_seconds) {
+  if (log_) log_->close();
+  std::vector<std::string> broken;
+  if (killed_since_) {
+    broken.push_back("the interlock killed the run at " + std::to_string(to_seconds(*killed_since_)) +
+                     " s: " + why_killed_);
+  } else if (stop_) {
+    broken.emplace_back("the run was interrupted");
+  } else if (!live_since_) {
+    broken.emplace_back("the run never became live");
+  }
+  Verdict verdict = judge_->finish({loaded_.name, scenario_.title, scenario_.seed, loaded_.digest},
+                                   {broken, playbook_.gaps(judge_->events())}, wall_seconds);
+  if (!stop_) verdict.warnings = playbook_.warnings(judge_->events());
+  return verdict;
+}
+
+}  // namespace ironbird::scenarios

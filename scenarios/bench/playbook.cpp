@@ -1,0 +1,137 @@
+#include "scenarios/bench/playbook.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "scenarios/bench/run_time.hpp"
+#include "scenarios/bench/scenario_rules.hpp"
+#include "scenarios/requirements/number_text.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+/// Says of the whole run that the vehicle stays on the ground.
+bool forbids_flight(const CheckConfig& check) {
+  if (!check.none_of_events || !check.after.empty() || !check.until.empty()) return false;
+  const std::string in_full = "ground:" + std::string(kLiftedOff);
+  return std::any_of(check.none_of_events->begin(), check.none_of_events->end(),
+                     [&](const std::string& name) { return name == kLiftedOff || name == in_full; });
+}
+
+/// Names a refusal, or any.
+bool expects_refusal(const CheckConfig& check) {
+  const auto is_refusal = [](const std::string& event) { return event.starts_with(kRefusedEvent); };
+  const auto names_one = [&](const std::optional<std::vector<std::string>>& events) {
+    return events && std::any_of(events->begin(), events->end(), is_refusal);
+  };
+  return names_one(check.order_of_events) || names_one(check.none_of_events) || is_refusal(check.after) ||
+         is_refusal(check.until);
+}
+
+/// The take-off that the pilot asks for by himself; a vehicle that takes off when it is armed needs none.
+bool is_the_pilots_own(const RunEvent& refusal, const Scenario& scenario) {
+  const double late = refusal.time - scenario.pilot.take_off_at;
+  return scenario.pilot.automatic && refusal.text.starts_with("take_off:") &&
+         std::abs(late) <= to_seconds(scenario.fcu.tick);
+}
+
+std::string about_refusal(const RunEvent& refusal) {
+  return "request at " + with_unit(refusal.time, "s") + " was refused: " + refusal.text;
+}
+
+std::string why_left(const Script::Left& left) {
+  if (!left.due) return " waited for \"" + left.after + "\", which never happened";
+  return " was due at " + with_unit(to_seconds(*left.due), "s") + ", after the end of the run";
+}
+
+}  // namespace
+
+void Playbook::add_scenario() {
+  for (std::size_t i = 0; i < scenario_.events.size(); ++i) {
+    add(scenario_.events[i].after, scenario_.events[i].at, {Deed::Kind::kEvent, i});
+  }
+  for (std::size_t i = 0; i < scenario_.snapshots.size(); ++i) {
+    add(scenario_.snapshots[i].after, scenario_.snapshots[i].at, {Deed::Kind::kSnapshot, i});
+  }
+  add("", scenario_.duration, {Deed::Kind::kEnd, 0});
+  if (!scenario_.end_after.empty()) add(scenario_.end_after, scenario_.end_delay, {Deed::Kind::kEnd, 0});
+}
+
+void Playbook::add(const std::string& after, double delay, Deed deed) {
+  script_.add(after, from_seconds(delay));
+  deeds_.push_back(deed);
+}
+
+void Playbook::add_at(Time when, Deed deed) {
+  script_.add("", when);
+  deeds_.push_back(deed);
+}
+
+std::optional<Deed> Playbook::next_due(Time now) {
+  const auto item = script_.next_due(now);
+  return item ? std::optional(deeds_[*item]) : std::nullopt;
+}
+
+void Playbook::hear(const RunEvent& event, Time now) {
+  // A picture's name or a text of the FCU is no event of the flight.
+  if (event.kind != "snapshot" && event.kind != "fcu") script_.happened(event.text, now);
+  script_.happened(event.kind + ":" + event.text, now);
+}
+
+std::string Playbook::name_of(const Deed& deed) const {
+  switch (deed.kind) {
+    case Deed::Kind::kEvent:
+      return "event \"" + describe_event(scenario_.events[deed.index]) + "\"";
+    case Deed::Kind::kSnapshot:
+      return "snapshot \"" + scenario_.snapshots[deed.index].name + "\"";
+    case Deed::Kind::kEnd:
+      return "the end of the run";
+    default:
+      return "";  // the bench's own
+  }
+}
+
+std::vector<std::string> Playbook::gaps(const std::vector<RunEvent>& events) const {
+  std::vector<std::string> gaps;
+  const bool flew = std::any_of(events.begin(), events.end(), [](const RunEvent& event) {
+    return event.kind == "ground" && event.text == kLiftedOff;
+  });
+  const auto& checks = scenario_.checks;
+  if (!flew && std::none_of(checks.begin(), checks.end(), forbids_flight)) {
+    gaps.push_back("the vehicle never left the ground; if it should not, say so: none_of_events = [\"" +
+                   std::string(kLiftedOff) + "\"]");
+  }
+  for (const Script::Left& left : script_.left()) {
+    const Deed& deed = deeds_[left.item];
+    if (deed.kind == Deed::Kind::kEvent && !scenario_.events[deed.index].optional)
+      gaps.push_back(name_of(deed) + why_left(left) + "; if it need not come, say so: optional = true");
+  }
+  if (std::any_of(checks.begin(), checks.end(), expects_refusal)) return gaps;
+  for (const RunEvent& event : events) {
+    if (event.kind == kRefusedEvent && !is_the_pilots_own(event, scenario_)) {
+      gaps.push_back(about_refusal(event) + "; if it should be, let a check name it: order_of_events = [\"" +
+                     std::string(kRefusedEvent) + "\"]");
+    }
+  }
+  return gaps;
+}
+
+std::vector<std::string> Playbook::warnings(const std::vector<RunEvent>& events) const {
+  std::vector<std::string> warnings;
+  for (const Script::Left& left : script_.left()) {
+    const Deed& deed = deeds_[left.item];
+    const bool is_end = deed.kind == Deed::Kind::kEnd;
+    if (deed.kind == Deed::Kind::kSnapshot)
+      warnings.push_back(name_of(deed) + why_left(left) + ": not taken");
+    if (is_end && !left.due) warnings.push_back(name_of(deed) + why_left(left));
+  }
+  for (const RunEvent& event : events) {
+    if (event.kind == kRefusedEvent && is_the_pilots_own(event, scenario_))
+      warnings.push_back(about_refusal(event));
+  }
+  return warnings;
+}
+
+}  // namespace ironbird::scenarios
