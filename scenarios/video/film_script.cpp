@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "autopilot/types/flight_status.hpp"
+#include "autopilot/types/state_estimate.hpp"
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/held_column.hpp"
 #include "scenarios/record/logged_route.hpp"
