@@ -41,30 +41,54 @@ std::unique_ptr<Base> required(const std::string& name, const AutopilotConfig::S
   return module;
 }
 
-/// What the newcomer of a swap is to be told, the strongest last.
+bool belongs(const std::string& path, const std::string& slot) {
+  return path.starts_with(slot + ".");
+}
+
+/// What the newcomer of a swap is to be told, the strongest last. A predecessor of the same kind has already
+/// been told what was asked for in flight.
 std::vector<ParameterSetting> inheritance(const SwapModule& wish, bool same_kind, const ParameterTable& table,
                                           const std::vector<ParameterSetting>& asked) {
   std::vector<ParameterSetting> settings;
-  const auto belongs = [&](const std::string& path) { return path.starts_with(wish.slot + "."); };
   for (const ParameterSlot& slot : table.slots()) {
-    if (same_kind && belongs(slot.path)) settings.emplace_back(slot.path, *table.get(slot.path));
+    if (same_kind && belongs(slot.path, wish.slot)) {
+      settings.emplace_back(slot.path, *table.get(slot.path));
+    }
   }
   settings.insert(settings.end(), wish.settings.begin(), wish.settings.end());
   for (const ParameterSetting& setting : asked) {
-    if (belongs(setting.first)) settings.push_back(setting);
+    if (belongs(setting.first, wish.slot)) settings.push_back(setting);
   }
   return settings;
+}
+
+/// What is asked for in flight is no configuration of the newcomer either: it is measured by that.
+/// @return why it cannot be had, or empty
+std::string change(ParameterTable& own, const std::string& slot, const std::vector<ParameterSetting>& asked,
+                   bool in_flight) {
+  for (const auto& [path, value] : asked) {
+    if (!belongs(path, slot) || own.find(path) == nullptr) continue;
+    std::string why;
+    if (own.set(path, value, in_flight, &why) != SetOutcome::kAccepted) {
+      return path + ": asked for before, cannot be had of another kind: " + why;
+    }
+  }
+  return {};
 }
 
 template <class Base>
 RequestOutcome exchange(std::unique_ptr<Base>& place, AutopilotConfig::Slot& slot, const SwapModule& wish,
                         const Registry<Base>& registry, const std::vector<ParameterSetting>& settings,
-                        ParameterTable& table, const Signals& signals, bool in_flight) {
+                        const std::vector<ParameterSetting>& asked_in_flight, ParameterTable& table,
+                        const Signals& signals, bool in_flight) {
   std::unique_ptr<Base> newcomer = registry.make(wish.kind);
   if (newcomer == nullptr) return {false, unknown_kind(wish.slot, wish.kind, registry)};
   ParameterTable own;
   newcomer->register_parameters(own, wish.slot);
   if (const std::string conflict = own.set_all(settings); !conflict.empty()) return {false, conflict};
+  if (const std::string why = change(own, wish.slot, asked_in_flight, in_flight); !why.empty()) {
+    return {false, why};
+  }
   if (in_flight && slot.kind == wish.kind) {
     newcomer->configured_like(*place);
     if (const std::string_view why = newcomer->parameter_danger(); !why.empty()) {
@@ -138,8 +162,10 @@ RequestOutcome Autopilot::set(const SetParameter& wish) {
   std::string why;
   const SetOutcome outcome = parameters_.set(wish.path, wish.value, in_flight(), &why);
   if (outcome == SetOutcome::kAccepted) {
-    std::erase_if(asked_, [&](const ParameterSetting& setting) { return setting.first == wish.path; });
-    asked_.emplace_back(wish.path, wish.value);
+    const auto same = [&](const ParameterSetting& setting) { return setting.first == wish.path; };
+    std::erase_if(asked_, same);
+    std::erase_if(asked_in_flight_, same);
+    (in_flight() ? asked_in_flight_ : asked_).emplace_back(wish.path, wish.value);
     return {true, ""};
   }
   std::string reason = wish.path + ": " + std::string(name_of(outcome));
@@ -194,7 +220,8 @@ RequestOutcome Autopilot::swap(const SwapModule& wish) {
     AutopilotConfig::Slot& config = config_.*slot.config;
     const bool same_kind = config.kind == wish.kind;
     outcome = exchange(std::get<std::unique_ptr<Base>&>(places()), config, wish, modules_.*slot.kinds,
-                       inheritance(wish, same_kind, parameters_, asked_), parameters_, seen, in_flight());
+                       inheritance(wish, same_kind, parameters_, asked_), asked_in_flight_, parameters_, seen,
+                       in_flight());
   });
   return outcome.value_or(
       RequestOutcome{false, "slot \"" + wish.slot + "\" is unknown; there are: " + names});

@@ -90,7 +90,8 @@ class Autopilot {
   std::unique_ptr<TrajectoryFollower> trajectory_follower_;
   std::unique_ptr<Controller> controller_;
   ParameterTable parameters_;
-  std::vector<ParameterSetting> asked_;  // by request, the newest value of each
+  std::vector<ParameterSetting> asked_;            // by request, the newest value of each
+  std::vector<ParameterSetting> asked_in_flight_;  // likewise: not what anything is configured to
   std::optional<ControlSetpoint> override_;
   std::uint32_t route_revision_ = 0;
   Signals signals_;

@@ -199,22 +199,33 @@ FcuCommand Cascade::enter(const PositionClimbHeading& s) {
 FcuCommand Cascade::enter(const Approach& s) {
   const Vector3 error_N = s.p_N - estimate_->p_NB_N;
   const Vector3 v_NB_N = estimate_->v_NB_N();
+  const double distance = error_N.head<2>().norm();
   Vector2 wanted_N(run(kPosN, error_N.x(), v_NB_N.x()), run(kPosE, error_N.y(), v_NB_N.y()));
   const double speed = wanted_N.norm();
+  const double closing = distance > 0.0 ? v_NB_N.head<2>().dot(error_N.head<2>()) / distance : 0.0;
   if (stiffness() > 0.0) {
-    const double most = approach_speed(error_N.head<2>().norm(), stiffness(), s.deceleration);
-    if (speed > most) wanted_N *= most / speed;
+    const double most = approach_speed(distance, stiffness(), s.deceleration);
+    if (closing > params_.max_horizontal_speed) {
+      // Who comes faster than it may fly brakes as on the rest of the way, not down to the limit at once.
+      wanted_N = std::min(closing, most) / distance * error_N.head<2>();
+    } else if (speed > most) {
+      wanted_N *= most / speed;
+    }
   }
   VelocityHeadingRate next;
   next.v_N << wanted_N, s.v_down ? *s.v_down : run(kPosD, error_N.z(), v_NB_N.z());
   next.heading_rate = yaw_rate_for(s.heading);
-  return enter(next);
+  return track(next, std::max(params_.max_horizontal_speed, closing));
 }
 
 FcuCommand Cascade::enter(const VelocityHeadingRate& s) {
+  return track(s, params_.max_horizontal_speed);
+}
+
+FcuCommand Cascade::track(const VelocityHeadingRate& s, double max_horizontal_speed) {
   const Vector3 v_NB_N = estimate_->v_NB_N();
   const Vector3 wanted_N =
-      limited(s.v_N, params_.max_horizontal_speed, params_.max_climb_speed, params_.max_descent_speed);
+      limited(s.v_N, max_horizontal_speed, params_.max_climb_speed, params_.max_descent_speed);
   const double north = run_filtered(kVelN, wanted_N.x() - v_NB_N.x(), v_NB_N.x());
   const double east = run_filtered(kVelE, wanted_N.y() - v_NB_N.y(), v_NB_N.y());
   const double down = run_filtered(kVelD, wanted_N.z() - v_NB_N.z(), v_NB_N.z());

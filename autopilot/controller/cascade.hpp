@@ -110,6 +110,7 @@ class Cascade {
   FcuCommand enter(const Approach& s);
   FcuCommand enter(const NoSetpoint&) { return SilenceCommand{}; }
 
+  FcuCommand track(const VelocityHeadingRate& s, double max_horizontal_speed);
   template <class Enter>
   FcuCommand run_loops(const StateEstimate& estimate, const Step& step, Enter&& enter_at);
   double run(Loop loop, double error, double rate);

@@ -11,10 +11,12 @@ namespace ironbird::autopilot {
 namespace {
 
 // So near to the height of the launch the vehicle is more likely on the ground than in the air.
-constexpr double kLow = 1.0;           // m
-constexpr double kOffGround = 0.3;     // m from the launch: the climb has begun
-constexpr double kBlindTilt = 0.35;    // rad, 1 sigma: less sure it is better not to turn
-constexpr double kBlindLift = 0.97;    // of what carried it: rather down than up
+constexpr double kLow = 1.0;         // m
+constexpr double kOffGround = 0.3;   // m from the launch: the climb has begun
+constexpr double kBlindTilt = 0.35;  // rad, 1 sigma: less sure it is better not to turn
+constexpr double kBlindLift = 0.97;  // of what carried it: rather down than up
+// Near the ground it is to come down before long, but with less speed than from a fall: 1.7 m/s from 1 m.
+constexpr double kLowBlindLift = 0.85;
 constexpr double kLiftLag = 3.0;       // s: longer than a climb or a brake begins and ends
 constexpr double kMostMistaken = 1.5;  // times the weight, or its inverse, that the mass may be wrong by
 // A vehicle that sinks slower than this share of what it was told to is held up by something.
@@ -210,8 +212,8 @@ void CascadedController::enter(FlightPhase phase, FlightPhase from, const StateE
     rest_.reset();
   }
   FlightMemory& m = notebook();
-  const bool high = std::abs(m.launch_N.z() - estimate.p_NB_N.z()) > kLow;
-  m.blind = phase == FlightPhase::kSilent && m.launched && !m.on_ground && high;
+  const bool off_ground = std::abs(m.launch_N.z() - estimate.p_NB_N.z()) > kOffGround;
+  m.blind = phase == FlightPhase::kSilent && m.launched && !m.on_ground && off_ground;
   m.on_ground = false;
   m.phase_began = estimate.stamp;                                      // already in this step
   if (from == FlightPhase::kTakeOff && phase == FlightPhase::kHold) {  // over the place where it climbed
@@ -231,7 +233,8 @@ FcuCommand CascadedController::without_estimate(const StateEstimate& estimate, b
   // stick limits the throttle there too.
   const double in_phase = seconds(estimate.stamp - memory().phase_began);
   const bool blind = memory().blind && !overridden && !time_lost() && in_phase <= params().silence_patience;
-  const double thrust = kBlindLift * memory().lift * params().mass * params().gravity;
+  const bool low = std::abs(memory().launch_N.z() - estimate.p_NB_N.z()) < kLow;
+  const double thrust = (low ? kLowBlindLift : kBlindLift) * memory().lift * params().mass * params().gravity;
   const bool knows_up = std::isfinite(estimate.roll + estimate.pitch) && estimate.w_NB_B.allFinite() &&
                         estimate.sigma_attitude.head<2>().maxCoeff() < kBlindTilt;
   if (blind && knows_up) {

@@ -34,7 +34,8 @@ struct RestLimits {
 /// shorter than a sample, and leaves the estimate wrong by metres per second.
 ///
 /// When it is handed back with idling motors it may lie or fly, until it falls for as long as no bounce
-/// lasts, or is felt to lie.
+/// lasts, or is felt to lie. So it may when it has just struck the ground in other hands, or so soon after
+/// them that they brought it there: what the estimate missed of the blow must not be flown against.
 class RestWatch {
  public:
   /// One step.
@@ -49,7 +50,7 @@ class RestWatch {
   /// The same, in other hands.
   bool still_with_others() const { return still_with_others_.so(); }
 
-  /// It was handed back with idling motors, and it is not known yet whether it flies.
+  /// It was handed back with idling motors, or struck something, and it is not known yet whether it flies.
   bool may_lie() const { return may_lie_; }
 
   /// It lies on the ground and was put there by others.
@@ -62,6 +63,7 @@ class RestWatch {
 
  private:
   void feel_fall(const StateEstimate& estimate, bool idle);
+  void feel_blow(const StateEstimate& estimate);
 
   std::optional<Time> last_;  // none: no velocity to compare with
   double v_down_ = 0.0;       // m/s, of the step before
@@ -71,6 +73,9 @@ class RestWatch {
   Since still_with_others_;
   Since carried_;  // although its motors idle, in other hands
   Since falling_;  // with idling motors
+  Since struck_;   // in other hands or soon after
+  std::optional<Time> taken_last_;
+  double struck_down_ = 0.0;  // m, down, where it was struck
 };
 
 }  // namespace ironbird::autopilot

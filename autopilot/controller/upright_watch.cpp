@@ -9,6 +9,7 @@ constexpr double kAskedUpright = 0.7;   // cosine of 45 deg
 constexpr double kLiesStill = 1.0;      // s
 constexpr double kOutOfControl = 3.0;   // s, several times what righting itself takes a vehicle that can
 constexpr double kRightedItself = 0.5;  // s, longer than a tumbling vehicle is upright
+constexpr double kMeansIt = 0.5;        // s, longer than the loops ask a tumbling vehicle to lean far
 
 }  // namespace
 
@@ -30,10 +31,11 @@ void UprightWatch::look(const StateEstimate& estimate, bool usable, bool still,
   upright_.note(upright > kAskedUpright, now);
   const bool righted = upright_.lasts(kRightedItself, now);
   const bool expected_upright = asked && *asked > kAskedUpright;
-  if (taken || !expected_upright || righted) {
+  asked_far_.note(!expected_upright, now);
+  if (taken || asked_far_.lasts(kMeansIt, now) || righted) {
     out_of_control_.forget();
   } else {
-    out_of_control_.note(leans_ || out_of_control_.so(), now);
+    out_of_control_.note((leans_ && expected_upright) || out_of_control_.so(), now);
   }
   if (out_of_control_.lasts(kOutOfControl, now)) given_up_ = true;
   if (taken && righted) given_up_ = false;

@@ -12,8 +12,8 @@ namespace ironbird::autopilot {
 /// It lies when it leans more than 60 deg and neither moves nor turns for a second: nothing that flies does.
 /// It is out of control when it is asked to lean less than 45 deg, yet began to lean more than 60 deg three
 /// seconds ago and has not leant less than 45 deg for half a second at a stretch since; time without an
-/// estimate does not count. Who asks for rates or torques may fly as he likes. The second stays so until the
-/// motors are disarmed or the pilot has it upright again.
+/// estimate does not count. Who asks for more, for rates or for torques half a second long may fly as he
+/// likes. The second stays so until the motors are disarmed or the pilot has it upright again.
 class UprightWatch {
  public:
   /// One step.
@@ -49,6 +49,7 @@ class UprightWatch {
   bool leans_ = false;
   Since lies_;
   Since upright_;
+  Since asked_far_;  // to lean far, or for no attitude
   Since out_of_control_;
   bool given_up_ = false;
 };

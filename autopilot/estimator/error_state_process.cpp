@@ -87,33 +87,37 @@ ErrorState::Matrix ErrorTransition::full() const {
 void error_state_propagate_covariance(ErrorState::Matrix& P, const ErrorTransition& F,
                                       const ErrorState::Vector& noise) {
   constexpr int kAll = ErrorState::kSize;
+  constexpr int kMoving = kG;  // position, velocity, attitude; all behind them is constant or fades
   const Matrix3 pt = F.pt.transpose(), pa = F.pa.transpose();
   const Matrix3 vt = F.vt.transpose(), va = F.va.transpose(), tt = F.tt.transpose();
   const Eigen::Matrix<double, 9, 3> vg = F.vg.transpose(), tg = F.tg.transpose();
 
-  // N = P F^T, column block by column block, then M = N^T = F P.
-  ErrorState::Matrix N;
+  // N = P F^T, of the columns that move, block by block.
+  Eigen::Matrix<double, kAll, kMoving> N;
   N.middleCols<3>(kP) = P.middleCols<3>(kP) + F.h * P.middleCols<3>(kV) +
                         P.middleCols<3>(kT).lazyProduct(pt) + P.middleCols<3>(kA).lazyProduct(pa);
   N.middleCols<3>(kV) = P.middleCols<3>(kV) + P.middleCols<3>(kT).lazyProduct(vt) +
                         P.middleCols<9>(kG).lazyProduct(vg) + P.middleCols<3>(kA).lazyProduct(va);
   N.middleCols<3>(kT) = P.middleCols<3>(kT).lazyProduct(tt) + P.middleCols<9>(kG).lazyProduct(tg);
-  N.middleCols<12>(kG) = P.middleCols<12>(kG);
-  N.middleCols<3>(kW) = F.decay.gnss * P.middleCols<3>(kW);
-  N.col(kB) = F.decay.baro * P.col(kB);
-  N.middleCols<3>(kM) = F.decay.mag * P.middleCols<3>(kM);
-  const ErrorState::Matrix M = N.transpose();
+  const Eigen::Matrix<double, kMoving, kAll> M = N.transpose();
 
-  // F P F^T = M F^T, upper triangle only.
+  // F P F^T, upper triangle: of what moves M F^T, beside it M and its fading.
   P.block<3, 3>(kP, kP) = M.block<3, 3>(kP, kP) + F.h * M.block<3, 3>(kP, kV) +
                           M.block<3, 3>(kP, kT).lazyProduct(pt) + M.block<3, 3>(kP, kA).lazyProduct(pa);
   P.block<6, 3>(kP, kV) = M.block<6, 3>(kP, kV) + M.block<6, 3>(kP, kT).lazyProduct(vt) +
                           M.block<6, 9>(kP, kG).lazyProduct(vg) + M.block<6, 3>(kP, kA).lazyProduct(va);
   P.block<9, 3>(kP, kT) = M.block<9, 3>(kP, kT).lazyProduct(tt) + M.block<9, 9>(kP, kG).lazyProduct(tg);
-  P.block<kW, 12>(kP, kG) = M.block<kW, 12>(kP, kG);
-  P.block<kB, 3>(kP, kW) = F.decay.gnss * M.block<kB, 3>(kP, kW);
-  P.col(kB) = F.decay.baro * M.col(kB);
-  P.block<kAll, 3>(kP, kM) = F.decay.mag * M.block<kAll, 3>(kP, kM);
+  P.block<kMoving, 12>(kP, kG) = M.block<kMoving, 12>(kP, kG);
+  P.block<kMoving, 3>(kP, kW) = F.decay.gnss * M.block<kMoving, 3>(kP, kW);
+  P.block<kMoving, 1>(kP, kB) = F.decay.baro * M.col(kB);
+  P.block<kMoving, 3>(kP, kM) = F.decay.mag * M.block<kMoving, 3>(kP, kM);
+  // Among the constants nothing changes; each walk fades in its rows, then in its columns.
+  P.block<3, kAll - kW>(kW, kW) *= F.decay.gnss;
+  P.block<1, kAll - kB>(kB, kB) *= F.decay.baro;
+  P.block<3, kAll - kM>(kM, kM) *= F.decay.mag;
+  P.block<kW + 3 - kMoving, 3>(kMoving, kW) *= F.decay.gnss;
+  P.block<kB + 1 - kMoving, 1>(kMoving, kB) *= F.decay.baro;
+  P.block<kAll - kMoving, 3>(kMoving, kM) *= F.decay.mag;
   P.diagonal() += noise;
   mirror_upper(P);
 }

@@ -23,6 +23,9 @@ inline Waypoint place(double north, double east, double down, WaypointKind kind 
 /// An autopilot around the little vehicle.
 class AutopilotFlight : public ::testing::Test {
  protected:
+  explicit AutopilotFlight(const Modules& modules = standard_modules())
+      : autopilot_{on_external_pose(), modules} {}
+
   const Signals& step() {
     vehicle_.fly(autopilot_.step(vehicle_.frame()));
     return autopilot_.signals();
@@ -52,7 +55,7 @@ class AutopilotFlight : public ::testing::Test {
     ASSERT_TRUE(until(10.0, [](const Signals& s) { return s.flight.phase == FlightPhase::kHold; }));
   }
 
-  Autopilot autopilot_{on_external_pose(), standard_modules()};
+  Autopilot autopilot_;
   LittleVehicle vehicle_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "autopilot/controller/cascaded_controller.hpp"
 #include "autopilot/test/autopilot_flight.hpp"
 
 namespace ironbird::autopilot {
@@ -91,6 +92,38 @@ TEST_F(LiveChangesTest, MeasuresAChangeByWhatWasConfiguredHoweverOftenTheModuleI
       SwapModule{"trajectory_follower", "flat_pid_follower", {{"trajectory_follower.mass", 2.0}}});
   EXPECT_THAT(outcome.reason, HasSubstr("not in flight"));
   EXPECT_EQ(autopilot_.parameters().get("trajectory_follower.mass"), ParameterValue(3.9));
+}
+
+class KindOfAnotherNameTest : public AutopilotFlight {
+ protected:
+  KindOfAnotherNameTest() : AutopilotFlight(with_another_name()) {}
+
+  static Modules with_another_name() {
+    Modules modules = standard_modules();
+    modules.controllers.add<CascadedController>("another");
+    return modules;
+  }
+};
+
+TEST_F(KindOfAnotherNameTest, MeasuresChangesInFlightByWhatItIsConfiguredTo) {
+  take_off();
+  ask(SetParameter{"controller.mass", 3.2});
+  ask(SwapModule{"controller", "another", {}});
+  EXPECT_EQ(autopilot_.parameters().get("controller.mass"), ParameterValue(3.2)) << "it was asked for";
+  EXPECT_FALSE(autopilot_.request(SetParameter{"controller.mass", 2.6}).accepted);
+  ask(SetParameter{"controller.mass", 4.5});
+  // NOR does a swap keep a change that its own configuration does not allow
+  const RequestOutcome outcome =
+      autopilot_.request(SwapModule{"controller", "cascaded_controller", {{"controller.mass", 3.4}}});
+  EXPECT_THAT(outcome.reason, HasSubstr("controller.mass"));
+  EXPECT_EQ(autopilot_.parameters().get("controller.mass"), ParameterValue(4.5));
+}
+
+TEST_F(KindOfAnotherNameTest, IsConfiguredToWhatWasAskedForOnTheGround) {
+  ask(SetParameter{"controller.mass", 3.2});
+  take_off();
+  ask(SwapModule{"controller", "another", {}});
+  ask(SetParameter{"controller.mass", 2.6});
 }
 
 /// What may be set in flight, as far as it may: upper and lower ends.

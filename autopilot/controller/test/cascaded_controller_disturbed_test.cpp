@@ -159,9 +159,19 @@ TEST_F(CascadedControllerTest, DoesNotChaseAPositionThatJumps) {
   EXPECT_LT((after.M_B - calm.M_B).norm(), 1e-9);
 }
 
-TEST_F(CascadedControllerTest, SaysNothingNearTheGroundOnALostEstimateAndLandsWhenItIsSoonBack) {
+TEST_F(CascadedControllerTest, ComesDownInsteadOfFallingWhenTheEstimateIsLostNearTheGround) {
+  const double weight = controller_.params().mass * controller_.params().gravity;
   fly_offboard();
   estimate_.p_NB_N.z() = -0.9;
+  estimate_.health = Health::kLost;
+  EXPECT_NEAR(std::get<PassThroughCommand>(run()).thrust / weight, 0.85, 0.01);
+  run_for(controller_.params().silence_patience);
+  EXPECT_TRUE(is_silent());
+}
+
+TEST_F(CascadedControllerTest, SaysNothingOnTheGroundOnALostEstimateAndLandsWhenItIsSoonBack) {
+  fly_offboard();
+  estimate_.p_NB_N.z() = -0.2;
   estimate_.health = Health::kLost;
   EXPECT_TRUE(is_silent());
   EXPECT_EQ(controller_.phase(), kSilent);

@@ -101,6 +101,62 @@ TEST_P(HandBackTest, CatchesAVehicleThatFallsWhenItIsHandedBack) {
   EXPECT_GT(flight.lift, 1.0);
 }
 
+TEST_P(HandBackTest, StaysDownAfterAFailsafeThatStruckTheGroundHoweverSoonItEnds) {
+  for (double held = 0.02; held < 2.0; held += 0.1) {
+    VerticalFlight flight;
+    bring(flight, GetParam());
+    flight.live(3.0, 1.3);
+    while (!flight.on_ground()) flight.live(VerticalFlight::kStep, 0.6);  // not idle
+    flight.live(held, 0.6);
+    for (int i = 0; i < 4000; ++i) {
+      flight.live(VerticalFlight::kStep);
+      ASSERT_LT(flight.lift, 0.1) << "handed back " << held << " s after the blow";
+    }
+    EXPECT_EQ(flight.controller.phase(), kDisarmed) << held;
+  }
+}
+
+TEST_P(HandBackTest, DoesNotClimbWhenItIsHandedBackTooLateForACatch) {
+  for (double late = 0.02; late < 0.4; late += 0.02) {
+    VerticalFlight flight;
+    bring(flight, GetParam());
+    flight.live(3.0, 1.3);
+    while (flight.height > flight.v_down * late) flight.live(VerticalFlight::kStep, 0.0);
+    while (!flight.on_ground()) flight.live(VerticalFlight::kStep);
+    for (int i = 0; i < 2000; ++i) {
+      flight.live(VerticalFlight::kStep);
+      ASSERT_LT(flight.height, 0.05) << "handed back " << late << " s before the blow";
+    }
+  }
+}
+
+TEST_P(HandBackTest, FliesOnAfterABlowFromWhichItFlewAway) {
+  VerticalFlight flight;
+  bring(flight, GetParam());
+  flight.live(3.0, 1.3);
+  while (!flight.on_ground()) flight.live(VerticalFlight::kStep, 0.6);
+  flight.live(2.0, 1.5);
+  ASSERT_GT(flight.height, 3.0);
+  flight.live(0.01);
+  EXPECT_GT(flight.lift, 0.2) << "it stops a climb";
+}
+
+TEST(RestWatchTest, DoesNotTakeTheTopOfABounceForRest) {
+  for (const double fall : {0.7, 1.0, 3.0}) {  // m/s^2: the motors lift the rest of the weight
+    RestWatch watch;
+    StateEstimate estimate;
+    FcuStatus status;
+    status.greatest_output = 0.6;
+    for (double v_down = -1.0; v_down < 1.0; v_down += 0.0025 * fall) {
+      estimate.stamp += std::chrono::microseconds(2500);
+      status.stamp = status.output_stamp = estimate.stamp;
+      estimate.v_NB_B.z() = v_down;
+      watch.look(estimate, true, status, true, {});
+      ASSERT_FALSE(watch.rests(estimate.stamp, true, {})) << fall << " m/s^2, at " << v_down << " m/s";
+    }
+  }
+}
+
 TEST_P(HandBackTest, CatchesAVehicleThatTheAirCarriesWheneverItIsHandedBack) {
   for (double held = 1.5; held < 8.0; held += 0.25) {
     VerticalFlight flight;
