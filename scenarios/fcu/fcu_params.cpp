@@ -8,13 +8,13 @@
 #include "hil_bridge/transport/byte_stream.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/bench/make_guard.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/fcu/fcu_verb.hpp"
 #include "scenarios/fcu/parameter_file.hpp"
 #include "scenarios/fcu/unit_line.hpp"
-#include "scenarios/fcu/wanted_parameters.hpp"
 
 namespace ironbird::scenarios {
 

@@ -5,12 +5,12 @@
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/terminal.hpp"
+#include "scenarios/bench/make_guard.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/fcu/fcu_verb.hpp"
 #include "scenarios/fcu/preflight.hpp"
 #include "scenarios/fcu/unit_line.hpp"
-#include "scenarios/fcu/wanted_parameters.hpp"
 
 namespace ironbird::scenarios {
 
