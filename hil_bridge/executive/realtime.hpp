@@ -10,7 +10,7 @@ namespace ironbird::hil_bridge {
 /// How the real-time executive paces itself.
 struct RealtimeConfig {
   Time period = std::chrono::microseconds(2500);
-  int greatest_missed = 10;
+  int greatest_missed = 20;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -24,7 +24,7 @@ struct RealtimeConfig {
 ///
 /// One thread does all of it: who wakes for the bytes of an IMU frame also writes the command that answers
 /// it. It waits in the clock and nowhere else; a pass takes no memory and no lock, and its only system calls
-/// are those of line and clock. docs/decisions/0014-who-waits-for-what.md.
+/// are those of line and clock. docs/decisions/0015-who-waits-for-what.md.
 class Realtime {
  public:
   /// All but the configuration outlive this.

@@ -10,7 +10,9 @@ using std::chrono::milliseconds;
 
 constexpr Time kHeartbeatPeriod = std::chrono::seconds(1);
 constexpr Time kVersionPeriod = milliseconds(500);
-constexpr Time kExchangePeriod = milliseconds(100);
+// No multiple of what a unit's loop may take: exchanges that always met it in the same phase would all be
+// slow.
+constexpr Time kExchangePeriod = std::chrono::microseconds(97'300);
 constexpr Time kGone = std::chrono::seconds(3);
 // The clock of a unit that has booted starts at zero; one that merely sends two streams out of order steps
 // back by less.

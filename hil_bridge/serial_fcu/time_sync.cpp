@@ -11,7 +11,8 @@ using std::chrono::microseconds;
 
 constexpr Time kSlowerThanLeast = microseconds(500);     // of a round trip, still believed
 constexpr Time kCatchUp = std::chrono::seconds(1);       // in which the line used reaches the fitted one
-constexpr Time kShortestSpan = std::chrono::seconds(2);  // of samples that tell a drift
+constexpr Time kShortestSpan = std::chrono::seconds(2);  // of samples that tell a drift,
+constexpr double kFewest = 8.0;                          // and how many it takes
 constexpr double kGreatestDrift = 5e-4;                  // s/s; crystals are better than 1e-4
 
 double seconds(Time time) {
@@ -67,20 +68,26 @@ void TimeSync::fit(Time fcu) {
     earliest = std::min(earliest, t);
   }
   const double spread = n * sum_tt - sum_t * sum_t;
-  const bool tells_drift = -earliest >= seconds(kShortestSpan) && spread > 0.0;
+  const bool tells_drift = n >= kFewest && -earliest >= seconds(kShortestSpan) && spread > 0.0;
   const double drift =
       tells_drift ? std::clamp((n * sum_to - sum_t * sum_o) / spread, -kGreatestDrift, kGreatestDrift) : 0.0;
   const Time fitted = anchor_offset_ + from_seconds((sum_o - drift * sum_t) / n);
   const Time present = present_offset(fcu);
   anchor_ = fcu;
   anchor_offset_ = present;
-  rate_ = std::clamp(drift + seconds(fitted - present) / seconds(kCatchUp), -kGreatestSlew, kGreatestSlew);
+  drift_ = drift;
+  error_ = fitted - present;
+  const double fastest = kGreatestSlew - std::abs(drift);
+  catch_up_ = std::clamp(seconds(error_) / seconds(kCatchUp), -fastest, fastest);
   state_.drift = drift;
   state_.offset = present;
 }
 
 Time TimeSync::present_offset(Time fcu) const {
-  return anchor_offset_ + from_seconds(rate_ * seconds(fcu - anchor_));
+  const double passed = seconds(fcu - anchor_);
+  // What was to be caught up is caught up once: the next exchange that is believed may be long in coming.
+  const double caught_up = std::min(std::abs(catch_up_) * std::max(passed, 0.0), std::abs(seconds(error_)));
+  return anchor_offset_ + from_seconds(drift_ * passed + std::copysign(caught_up, catch_up_));
 }
 
 Time TimeSync::to_bench(Time fcu, Time fallback) {

@@ -73,7 +73,9 @@ class TimeSync {
   std::size_t next_ = 0;
   Time anchor_{};  // FCU time at which the offset was `anchor_offset_`
   Time anchor_offset_{};
-  double rate_ = 0.0;  // of the offset, s/s
+  double drift_ = 0.0;     // of the fitted offset, s/s
+  double catch_up_ = 0.0;  // s/s, with which the line used moves to the fitted one,
+  Time error_{};           // until it has moved by this
   Time latest_fcu_ = Time::min();
   Time latest_bench_ = Time::min();
   TimeSyncState state_;

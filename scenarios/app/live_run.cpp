@@ -47,6 +47,17 @@ UnitAddress address_of(const FcuConfig& fcu) {
   return address;
 }
 
+std::string in_microseconds(hil_bridge::Time time) {
+  return std::to_string((time.count() + 500) / 1000) + " us";
+}
+
+std::string timing_line(const hil_bridge::LoopTiming& timing) {
+  return "from IMU bytes to command p50 " + in_microseconds(timing.response.quantile(0.5)) + ", p99 " +
+         in_microseconds(timing.response.quantile(0.99)) + ", at most " +
+         in_microseconds(timing.response.greatest()) + "; " + std::to_string(timing.missed) + " of " +
+         std::to_string(timing.passes) + " periods missed";
+}
+
 /// Runs the control loop in a thread of its own, to its end or the first error.
 class ControlThread {
  public:
@@ -185,6 +196,7 @@ Verdict fly_live(const RunJob& job, const autopilot::Modules& modules, RunListen
   }
   control.rethrow();
   interrupted = interrupt_requested();
+  listener.note(job.name.text() + ": " + timing_line(bench.timing()));
   return bench.finish(std::chrono::duration<double>(clock.now()).count());
 }
 

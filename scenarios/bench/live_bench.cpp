@@ -1,5 +1,7 @@
 #include "scenarios/bench/live_bench.hpp"
 
+#include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "scenarios/bench/check_rules.hpp"
@@ -20,6 +22,37 @@ constexpr std::chrono::nanoseconds kLookPeriod = std::chrono::milliseconds(50);
 constexpr std::chrono::nanoseconds kGoneForGood = std::chrono::seconds(5);
 constexpr std::chrono::nanoseconds kSettled = std::chrono::milliseconds(500);
 constexpr std::chrono::nanoseconds kTimingPeriod = std::chrono::seconds(1);
+
+DurationCounts counts_of(const hil_bridge::Histogram& histogram, const char* name, const char* meaning) {
+  DurationCounts counts{name,
+                        meaning,
+                        histogram.count(),
+                        to_seconds(histogram.quantile(0.5)),
+                        to_seconds(histogram.quantile(0.99)),
+                        to_seconds(histogram.greatest()),
+                        {},
+                        {}};
+  for (std::size_t k = 0; k < hil_bridge::Histogram::kBuckets; ++k) {
+    if (histogram.counts()[k] == 0) continue;
+    const bool bounded = k + 1 < hil_bridge::Histogram::kBuckets;
+    counts.up_to.push_back(bounded ? to_seconds(hil_bridge::Histogram::upper_bound(k))
+                                   : std::numeric_limits<double>::infinity());
+    counts.counts.push_back(histogram.counts()[k]);
+  }
+  return counts;
+}
+
+/// The loop's own measurements, by the names and meanings that it gives them.
+BenchTiming timing_of(const hil_bridge::LoopTiming& loop) {
+  BenchTiming timing{{}, loop.passes, loop.missed, loop.most_missed};
+  hil_bridge::LoopTiming::describe(
+      loop, [&]<class Value>(const char* name, const Value& value, const char*, const char* meaning) {
+        if constexpr (std::is_same_v<Value, hil_bridge::Histogram>) {
+          timing.stages.push_back(counts_of(value, name, meaning));
+        }
+      });
+  return timing;
+}
 
 }  // namespace
 
@@ -190,13 +223,25 @@ bool LiveBench::is_over(Time now) const {
   return (in.unit_disarmed && !in.unit_armed) || now - *killed_since_ > kGoneForGood;
 }
 
+/// A flight is not given up for its log; that it is incomplete is said.
+void LiveBench::close_log(std::vector<std::string>& broken) {
+  try {
+    log_->close();
+  } catch (const std::exception& error) {
+    broken.emplace_back(error.what());
+  }
+  const std::uint64_t lost = log_->recorder().file().lost();
+  if (lost > 0)
+    broken.push_back("the disk was too slow: " + std::to_string(lost) + " bytes of the log are missing");
+}
+
 void LiveBench::close_gate() {
   guard_->close(realtime_->now());
 }
 
 Verdict LiveBench::finish(double wall_seconds) {
-  if (log_) log_->close();
   std::vector<std::string> broken;
+  if (log_) close_log(broken);
   if (killed_since_) {
     broken.push_back("the interlock killed the run at " + std::to_string(to_seconds(*killed_since_)) +
                      " s: " + why_killed_);
@@ -207,6 +252,7 @@ Verdict LiveBench::finish(double wall_seconds) {
   }
   Verdict verdict = judge_->finish({loaded_.name, scenario_.title, scenario_.seed, loaded_.digest},
                                    {broken, playbook_.gaps(judge_->events())}, wall_seconds);
+  verdict.timing = timing_of(realtime_->timing());
   if (!stop_) verdict.warnings = playbook_.warnings(judge_->events());
   return verdict;
 }

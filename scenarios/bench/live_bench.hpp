@@ -88,8 +88,8 @@ class LiveBench {
 
   const hil_bridge::LoopTiming& timing() const { return realtime_->timing(); }
   const hil_bridge::InterlockStatus& interlock() const { return guard_->status(); }
-  const hil_bridge::SerialFcu& fcu() const { return *fcu_; }
-  const autopilot::Autopilot& autopilot() const { return *autopilot_; }
+  /// How much has happened so far.
+  std::size_t event_count() const { return judge_->events().size(); }
 
  private:
   void wire_judge();
@@ -102,6 +102,7 @@ class LiveBench {
   void ask_for_take_off(Time now);
   void publish_events(Time now);
   void show(Time now);
+  void close_log(std::vector<std::string>& broken);
   bool is_over(Time now) const;
   /// The scenario's own time, once it runs.
   Time own_time(Time now) const { return now - *live_since_ + arm_at_; }

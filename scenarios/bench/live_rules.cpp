@@ -37,6 +37,9 @@ std::vector<std::string> live_findings(const LoadedScenario& loaded) {
     findings.emplace_back(
         "environment.wind: only a simulator makes weather; leave it away, or fly fcu.kind = \"virtual\"");
   }
+  if (loaded.gives("link")) {
+    findings.emplace_back("link: a real line has faults of its own; these are for `ironbird fcu serve`");
+  }
   if (!scenario.start.on_ground) {
     findings.emplace_back("start.on_ground = false: a real vehicle starts on the ground");
   }

@@ -13,6 +13,7 @@
 #include "autopilot/types/control_setpoint.hpp"
 #include "autopilot/types/mission.hpp"
 #include "hil_bridge/interlock/interlock.hpp"
+#include "hil_bridge/transport/link_fault.hpp"
 #include "hil_bridge/virtual_fcu/firmware_host.hpp"
 #include "scenarios/requirements/check_config.hpp"
 #include "simulator/environment/environment.hpp"
@@ -70,7 +71,7 @@ struct FcuConfig : hil_bridge::VirtualFcuConfig {
 /// The gate through which motor commands leave. docs/safety.md
 struct InterlockChoice {
   hil_bridge::InterlockProfile profile = hil_bridge::InterlockProfile::kFlight;
-  int greatest_missed = 10;
+  int greatest_missed = 20;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -329,6 +330,7 @@ struct Scenario {
   simulator::SensorSuiteParams sensors;
   FcuConfig fcu;
   InterlockChoice interlock;
+  hil_bridge::transport::LinkFaultConfig link;
   std::vector<autopilot::Waypoint> waypoints;
   std::vector<EventConfig> events;
   std::vector<CheckConfig> checks;
@@ -356,6 +358,7 @@ struct Scenario {
     visit("sensors", self.sensors, "", "the vehicle's sensors");
     visit("fcu", self.fcu, "", "the flight-control unit");
     visit("interlock", self.interlock, "", "the gate through which motor commands leave");
+    visit("link", self.link, "", "what goes wrong with the line of a unit that is served");
     visit("waypoint", self.waypoints, "", "the mission, one table each");
     visit("event", self.events, "", "what happens, one table each");
     visit("check", self.checks, "", "what must hold, one table each");

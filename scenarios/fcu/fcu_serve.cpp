@@ -7,6 +7,7 @@
 #include <string>
 
 #include "hil_bridge/executive/real_time_rights.hpp"
+#include "hil_bridge/transport/link_fault.hpp"
 #include "hil_bridge/transport/pseudo_terminal.hpp"
 #include "hil_bridge/transport/udp_socket.hpp"
 #include "scenarios/app/exit_code.hpp"
@@ -87,7 +88,8 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
       load_scenario(arguments.scenario, {split_settings(arguments.settings), std::nullopt}, modules);
   if (arguments.idle_pilot) loaded.scenario.pilot.automatic = false;
   const Line line = open_line(arguments);
-  ServedUnit unit(loaded.scenario, *line.stream);
+  hil_bridge::transport::LinkFault spoiled(*line.stream, loaded.scenario.link, loaded.scenario.seed);
+  ServedUnit unit(loaded.scenario, spoiled);
   std::fprintf(stderr, "serving %s; connect with: ironbird fcu info %s; Ctrl-C ends\n",
                loaded.scenario.vehicle_folder.c_str(), line.how_to_reach.c_str());
   // A board has its processor for itself.
@@ -100,7 +102,9 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
   Time told{};
   Time lost{};
   while (!interrupt_requested() && (end == Time::zero() || unit.now() < end)) {
+    spoiled.advance(unit.now());
     unit.tick();
+    spoiled.advance(unit.now());
     next += unit.period();
     const Time behind = clock_now() - next;
     if (behind > kGivenUp) {

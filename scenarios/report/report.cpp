@@ -4,6 +4,7 @@
 #include "scenarios/report/figures.hpp"
 #include "scenarios/report/page_style.hpp"
 #include "scenarios/report/plot/svg.hpp"
+#include "scenarios/report/timing_html.hpp"
 #include "scenarios/report/verdict_html.hpp"
 
 namespace ironbird::scenarios {
@@ -68,6 +69,7 @@ std::string report_html(const std::vector<ReportRun>& runs) {
   for (const ReportRun& run : runs) out += checks_table(run, runs.size() > 1) + "\n";
   if (!runs.empty()) out += figures(runs) + "\n";
   out += metrics_table(runs) + "\n";
+  for (const ReportRun& run : runs) out += timing_section(run);
   for (const ReportRun& run : runs) out += events_table(run, runs.size() > 1) + "\n";
   for (const ReportRun& run : runs) out += configuration_section(run) + "\n";
   out += "<footer>Ironbird. North-east-down; times since the start of the run.</footer>\n</main>\n<script>";

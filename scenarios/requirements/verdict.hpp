@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "scenarios/requirements/bench_timing.hpp"
 #include "scenarios/requirements/check.hpp"
 #include "scenarios/requirements/metrics.hpp"
 #include "scenarios/requirements/outcome.hpp"
@@ -36,6 +38,7 @@ struct Verdict {
   std::vector<CheckResult> checks;
   std::vector<Metric> metrics;
   std::vector<RunEvent> events;
+  std::optional<BenchTiming> timing = {};
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -46,6 +49,7 @@ struct Verdict {
     visit("checks", self.checks, "", "what each check found");
     visit("metrics", self.metrics, "", "figures of the run");
     visit("events", self.events, "", "what happened, in order of time");
+    visit("timing", self.timing, "", "how the bench kept its time; of runs in real time");
   }
 };
 

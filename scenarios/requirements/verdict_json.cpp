@@ -62,6 +62,48 @@ CheckResult check_from_json(const Json& json) {
           .angles = json.value("angles", "") == kRadians ? Angles::kRadians : Angles::kDegrees};
 }
 
+Json timing_to_json(const BenchTiming& timing) {
+  Json stages = Json::array();
+  for (const DurationCounts& stage : timing.stages) {
+    Json buckets = Json::array();
+    for (std::size_t i = 0; i < stage.counts.size(); ++i) {
+      buckets.push_back(Json::array({number(stage.up_to[i]), stage.counts[i]}));
+    }
+    stages.push_back({{"name", stage.name},
+                      {"meaning", stage.meaning},
+                      {"count", stage.count},
+                      {"p50_s", stage.p50},
+                      {"p99_s", stage.p99},
+                      {"greatest_s", stage.greatest},
+                      {"buckets_up_to_s", std::move(buckets)}});
+  }
+  return {{"passes", timing.passes},
+          {"missed_periods", timing.missed},
+          {"most_missed_in_a_row", timing.most_missed},
+          {"stages", std::move(stages)}};
+}
+
+BenchTiming timing_from_json(const Json& json) {
+  BenchTiming timing{{}, json.at("passes"), json.at("missed_periods"), json.at("most_missed_in_a_row")};
+  for (const Json& stage : json.at("stages")) {
+    DurationCounts counts{stage.at("name"),
+                          stage.at("meaning"),
+                          stage.at("count"),
+                          stage.at("p50_s"),
+                          stage.at("p99_s"),
+                          stage.at("greatest_s"),
+                          {},
+                          {}};
+    for (const Json& bucket : stage.at("buckets_up_to_s")) {
+      const bool bounded = !bucket.at(0).is_null();
+      counts.up_to.push_back(bounded ? bucket.at(0).get<double>() : std::numeric_limits<double>::infinity());
+      counts.counts.push_back(bucket.at(1));
+    }
+    timing.stages.push_back(std::move(counts));
+  }
+  return timing;
+}
+
 /// Unit and meaning of a metric; empty for one that this version does not know.
 Metric known_metric(const std::string& name) {
   for (Metric& metric : RunMetrics::names_and_units()) {
@@ -81,16 +123,17 @@ std::string to_json(const Verdict& verdict) {
   for (const RunEvent& event : verdict.events) {
     events.push_back({{"time", number(event.time)}, {"kind", event.kind}, {"text", event.text}});
   }
-  const Json json{{"scenario", verdict.run.scenario},
-                  {"title", verdict.run.title},
-                  {"seed", verdict.run.seed},
-                  {"digest", verdict.run.digest},
-                  {"verdict", name_of(verdict.outcome)},
-                  {"reasons", verdict.reasons},
-                  {"warnings", verdict.warnings},
-                  {"checks", std::move(checks)},
-                  {"metrics", std::move(metrics)},
-                  {"events", std::move(events)}};
+  Json json{{"scenario", verdict.run.scenario},
+            {"title", verdict.run.title},
+            {"seed", verdict.run.seed},
+            {"digest", verdict.run.digest},
+            {"verdict", name_of(verdict.outcome)},
+            {"reasons", verdict.reasons},
+            {"warnings", verdict.warnings},
+            {"checks", std::move(checks)},
+            {"metrics", std::move(metrics)},
+            {"events", std::move(events)}};
+  if (verdict.timing) json["timing"] = timing_to_json(*verdict.timing);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -110,6 +153,7 @@ Verdict verdict_from_json(const std::string& text) {
     for (const Json& event : json.at("events")) {
       verdict.events.push_back({number_at(event, "time"), event.at("kind"), event.at("text")});
     }
+    if (json.contains("timing")) verdict.timing = timing_from_json(json.at("timing"));
   } catch (const Json::exception& error) {
     throw std::invalid_argument(std::string("no verdict: ") + error.what());
   }

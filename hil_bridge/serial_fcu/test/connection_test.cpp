@@ -48,6 +48,21 @@ TEST(ConnectionTest, RefusesAUnitWithAnotherNumberOfParameters) {
       "version 2.0");
 }
 
+TEST(ConnectionTest, ForgivesReportsThatWereLostOnTheWay) {
+  Connection connection;
+  connection.begin(Time{});
+  connection.take(rosflight::Heartbeat{}, Time{}, 5);
+  connection.take(rosflight::RosflightStatus{.armed = 1}, Time{}, 5);
+  EXPECT_TRUE(connection.heartbeat_alive(seconds(3)));
+  EXPECT_FALSE(connection.heartbeat_alive(seconds(3) + milliseconds(1)));
+  EXPECT_FALSE(connection.armed(milliseconds(501)));
+  connection.take(rosflight::SmallImu{}, milliseconds(100), 6);  // a frame is missing
+  EXPECT_TRUE(connection.armed(seconds(1)));
+  EXPECT_FALSE(connection.armed(milliseconds(1001)));
+  EXPECT_TRUE(connection.heartbeat_alive(seconds(10)));
+  EXPECT_FALSE(connection.heartbeat_alive(milliseconds(10001)));
+}
+
 TEST(ConnectionTest, FallsSilentWhenNothingMoreComes) {
   Connection connection;
   connection.begin(Time{});

@@ -85,6 +85,22 @@ TEST(TimeSyncTest, FollowsTwoCrystalsThatDiffer) {
   }
 }
 
+TEST(TimeSyncTest, StaysWhereItIsWhenNoExchangeIsBelievedForLong) {
+  const Clocks clocks;
+  TimeSync sync;
+  int k = 0;
+  for (; k < 20; ++k) {  // a quick one, late by half a millisecond on the way there: wrong by a quarter
+    clocks.exchange(sync, seconds(8) + milliseconds(100 * k), microseconds(500), Time{});
+  }
+  for (; k < 25; ++k) {
+    clocks.exchange(sync, seconds(8) + milliseconds(100 * k), Time{}, microseconds(500));
+  }
+  for (; k < 80; ++k) {  // the next five seconds all are slow
+    clocks.exchange(sync, seconds(8) + milliseconds(100 * k), milliseconds(2), milliseconds(2));
+    EXPECT_NEAR(clocks.error_us(sync, seconds(8) + milliseconds(100 * k)), 0.0, 500.0) << k;
+  }
+}
+
 TEST(TimeSyncTest, NeverRunsBackwardsWhateverTheLineDoes) {
   std::mt19937 random(6);
   std::exponential_distribution<double> delay(1.0 / 3e-3);

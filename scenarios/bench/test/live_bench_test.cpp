@@ -147,7 +147,7 @@ const KillCase kKillCases[] = {
                                      .param_type = hil_bridge::kRealParameter});
      },
      milliseconds(10), "a parameter of the unit has changed"},
-    {"MissedPeriods", [](LiveRig& rig) { rig.there().stalled = milliseconds(40); }, milliseconds(40),
+    {"MissedPeriods", [](LiveRig& rig) { rig.there().stalled = milliseconds(54); }, milliseconds(54),
      "the control loop misses its period"},
 };
 
