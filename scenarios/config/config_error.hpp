@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenarios/config/one_line.hpp"
 #include "scenarios/config/user_error.hpp"
 
 namespace ironbird::scenarios {
@@ -38,16 +39,6 @@ class ConfigError : public UserError {
   static std::string joined(const std::vector<std::string>& findings) {
     std::string text;
     for (const std::string& finding : findings) text += (text.empty() ? "" : "\n") + finding;
-    return text;
-  }
-
-  /// A finding quotes what it found. Whatever that was, it neither breaks the line nor talks to the terminal.
-  static std::string on_one_line(std::string text) {
-    constexpr std::size_t kLongest = 1000;
-    if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-    for (char& c : text) {
-      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-    }
     return text;
   }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "scenarios/config/one_line.hpp"
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/mcap_reader.hpp"
 #include "scenarios/record/topic_columns.hpp"
@@ -78,8 +79,8 @@ const LogTopic* Log::topic(std::string_view name) const {
     }
     if (readable) columns.finish(topic.fields_, topic.columns_, topic.texts_);
   } catch (const std::runtime_error& error) {
-    throw UserError(contents_->path.string() + ": topic " + topic.name_ + ", message " +
-                    std::to_string(topic.time_.size()) + ": " + error.what());
+    throw UserError(on_one_line(contents_->path.string() + ": topic " + topic.name_ + ", message " +
+                                std::to_string(topic.time_.size()) + ": " + error.what()));
   }
   return &contents_->decoded.emplace(topic.name_, std::move(topic)).first->second;
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "scenarios/config/one_line.hpp"
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/byte_cursor.hpp"
 #include "scenarios/record/crc32.hpp"
@@ -85,7 +86,8 @@ McapReader::McapReader(const std::filesystem::path& file) : path_(file) {
 }
 
 void McapReader::fail(const std::string& what) const {
-  throw UserError(path_.string() + ": byte " + std::to_string(record_ - bytes_.data()) + ": " + what);
+  throw UserError(
+      on_one_line(path_.string() + ": byte " + std::to_string(record_ - bytes_.data()) + ": " + what));
 }
 
 void McapReader::scan(std::span<const std::uint8_t> records, bool inside_chunk) {

@@ -122,6 +122,8 @@ std::vector<WrongCase> wrong_files() {
        "byte 37: a chunk is damaged: its checksum is wrong"},
       {"Lz4", start + chunk(7, 7, records, 0, "lz4", records.size()),
        "byte 37: a chunk is compressed with 'lz4', readable are zstd and none"},
+      {"NameInTwoLines", start + chunk(7, 7, records, 0, "l\nz", records.size()),
+       "byte 37: a chunk is compressed with 'l z', readable are zstd and none"},
       {"DamagedCompression", start + chunk(7, 7, "not zstd at all", 0, "zstd", 50),
        "byte 37: a chunk is damaged: "},
       {"WrongSize", start + chunk(7, 7, compressed(records), 0, "zstd", records.size() + 1),
