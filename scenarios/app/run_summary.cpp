@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "scenarios/app/exit_code.hpp"
+#include "scenarios/config/one_line.hpp"
 #include "scenarios/config/write_file.hpp"
 #include "scenarios/report/junit.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
@@ -80,11 +81,6 @@ std::string statistics(const std::string& scenario, const Runs& runs) {
                   values.front(), median(values), values.back());
     text += row;
   }
-  return text;
-}
-
-std::string on_one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ';');
   return text;
 }
 
