@@ -125,7 +125,9 @@ void WatchLoop::bite(const std::string& why, bool kill) {
   }
   line_.drop_if_dead();
   line_.discard_old();
-  if (config_.profile == InterlockProfile::kFlight) {
+  if (shared_.gate_open.beats.load(std::memory_order_relaxed) == 0) {
+    say(why + "; the gate was closed, nothing is sent");
+  } else if (config_.profile == InterlockProfile::kFlight) {
     say(why + "; nothing more is sent, the pilot's radio has the vehicle within the unit's time-out");
   } else if (!line_.has_line()) {
     say(why + "; no line to the unit is open, nothing can be sent");

@@ -21,7 +21,8 @@ struct SharedBeats {
     std::atomic<std::uint64_t> beats{0};
   };
   Cell watchdog;
-  Cell priority;  // 1: it got one
+  Cell priority;   // 1: it got one
+  Cell gate_open;  // 1: motor commands leave
   std::array<Cell, Watchdog::kMostThreads> threads;
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
