@@ -33,6 +33,7 @@ constexpr Missing kMissing[] = {
     {&In::radio_present, "no radio frames, or no override switch is mapped"},
     {&In::estimate_usable, "no estimate of attitude and height yet"},
     {&In::bench_in_time, "the control loop misses its period"},
+    {&In::watchdog_awake, "the watchdog does not answer"},
 };
 
 // Kills come first, and among them what the operator wants. A released or flying unit that is not all right

@@ -46,6 +46,7 @@ class WatchLoop {
   void take_orders();
   void take_line(int descriptor);
   void drop_dead_line(Time now);
+  bool gate_open() const;
   bool bench_gone(int patience_ms) const;
   /// What is wrong with a thread, or nothing.
   std::optional<std::string> silence(Time now);
