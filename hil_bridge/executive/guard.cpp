@@ -11,6 +11,7 @@ const InterlockStatus& Guard::step(const autopilot::StateEstimate& estimate, boo
   watch_.report(now, inputs_);
   inputs_.estimate_usable = autopilot::is_usable(estimate.health);
   inputs_.bench_in_time = bench_in_time;
+  inputs_.watchdog_awake = watchdog_awake_;
   inputs_.release_wanted = wishes_.release;
   inputs_.reset_wanted = wishes_.reset;
   inputs_.kill_wanted = wishes_.kill;

@@ -53,6 +53,8 @@ class Guard final : public Gate {
   std::optional<rosflight::Message> pass(const rosflight::Message& message, Time now) override;
 
   void want(const OperatorWishes& wishes) { wishes_ = wishes; }
+  /// How the process that guards the bench is. Where there is none it is always awake.
+  void watchdog(bool awake) { watchdog_awake_ = awake; }
 
   const InterlockStatus& status() const { return interlock_.status(); }
   /// What the last step looked at.
@@ -64,6 +66,7 @@ class Guard final : public Gate {
   Interlock interlock_;
   UnitWatch& watch_;
   OperatorWishes wishes_;
+  bool watchdog_awake_ = true;
   InterlockInputs inputs_;
   std::uint64_t number_ = 0;
   std::optional<rosflight::OffboardControl> approved_;  // and not yet sent

@@ -14,7 +14,8 @@ bool connected(const In& in) {
 }
 bool verified(const In& in) {
   return connected(in) && in.unit_disarmed && !in.unit_armed && in.unit_faultless && in.parameters_equal &&
-         in.sensors_flow && in.radio_present && in.estimate_usable && in.commands_sound && in.bench_in_time;
+         in.sensors_flow && in.radio_present && in.estimate_usable && in.commands_sound && in.bench_in_time &&
+         in.watchdog_awake;
 }
 
 /// What is said where an input does not hold.
@@ -32,6 +33,7 @@ constexpr Missing kMissing[] = {
     {&In::radio_present, "no radio frames, or no override switch is mapped"},
     {&In::estimate_usable, "no estimate of attitude and height yet"},
     {&In::bench_in_time, "the control loop misses its period"},
+    {&In::watchdog_awake, "the watchdog does not answer"},
 };
 
 // Kills come first, and among them what the operator wants. A released or flying unit that is not all right
@@ -72,6 +74,11 @@ constexpr InterlockRow kRows[] = {
      kKilled,
      [](const In& in) { return !in.bench_in_time; },
      "the control loop misses its period"},
+    {"loses its watchdog",
+     {kReleased, kLive},
+     kKilled,
+     [](const In& in) { return !in.watchdog_awake; },
+     "the watchdog does not answer"},
     {"is at fault",
      {kReleased},
      kKilled,

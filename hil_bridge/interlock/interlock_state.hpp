@@ -39,6 +39,7 @@ struct InterlockInputs {
   bool estimate_usable = false;
   bool commands_sound = true;
   bool bench_in_time = true;
+  bool watchdog_awake = true;
   bool release_wanted = false;
   bool reset_wanted = false;
   bool kill_wanted = false;
@@ -57,6 +58,7 @@ struct InterlockInputs {
     visit("estimate_usable", self.estimate_usable, "1", "the autopilot knows attitude and height");
     visit("commands_sound", self.commands_sound, "1", "no refusals for longer than half the unit's time-out");
     visit("bench_in_time", self.bench_in_time, "1", "the control loop keeps its period");
+    visit("watchdog_awake", self.watchdog_awake, "1", "the process that guards the bench answers");
     visit("release_wanted", self.release_wanted, "1", "the operator releases the run, now");
     visit("reset_wanted", self.reset_wanted, "1", "the operator resets after a kill, now");
     visit("kill_wanted", self.kill_wanted, "1", "the operator kills, now");

@@ -112,33 +112,39 @@ SerialPort::SerialPort(const SerialPortConfig& config) : config_(config) {
 }
 
 void SerialPort::open() {
-  if (const std::string problem = try_open(); !problem.empty()) throw LinkError(problem);
+  std::string why;
+  if (!try_open(&why)) throw LinkError(why);
 }
 
 bool SerialPort::reopen() {
-  return is_up() || try_open().empty();
+  return is_up() || try_open(nullptr);
 }
 
-std::string SerialPort::try_open() {
-  if (lasting_name_ && try_open(*lasting_name_).empty()) return {};
-  const std::string problem = try_open(config_.path);
-  if (problem.empty() && !lasting_name_) lasting_name_ = lasting_name_of(config_.path);
-  return problem;
+bool SerialPort::try_open(std::string* why) {
+  if (lasting_name_ && try_open(*lasting_name_, nullptr)) return true;
+  const bool opened = try_open(config_.path, why);
+  if (opened && !lasting_name_) lasting_name_ = lasting_name_of(config_.path);
+  return opened;
 }
 
-std::string SerialPort::try_open(const std::string& path) {
+// Looking for who has a port, or which there are, takes longer than a control loop has.
+bool SerialPort::try_open(const std::string& path, std::string* why) {
+  const auto refuse = [why](const auto& explain) {
+    if (why != nullptr) *why = explain();
+    return false;
+  };
   FileDescriptor file(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (!file) return why_not(path, errno);
+  if (!file) return refuse([&path, error = errno] { return why_not(path, error); });
   // The lock is for programs that ask for it, the exclusive mode for those that do not; root passes the
   // latter. On a pseudo-terminal that mode would outlive a killed program.
-  if (flock(file.number(), LOCK_EX | LOCK_NB) != 0) return taken(path);
+  if (flock(file.number(), LOCK_EX | LOCK_NB) != 0) return refuse([&path] { return taken(path); });
   if (const std::string problem = set_raw(file.number(), config_.baud); !problem.empty()) {
-    return path + ": " + problem;
+    return refuse([&] { return path + ": " + problem; });
   }
   if (!is_pseudo_terminal(path)) ioctl(file.number(), TIOCEXCL);
   set_low_latency(file.number());
   file_ = std::move(file);
-  return {};
+  return true;
 }
 
 std::size_t SerialPort::read(std::span<std::uint8_t> to) {

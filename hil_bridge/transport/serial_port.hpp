@@ -41,9 +41,9 @@ class SerialPort final : public ByteStream {
   std::string name() const override;
 
  private:
-  /// @return empty, or what is wrong and what to do
-  std::string try_open();
-  std::string try_open(const std::string& path);
+  /// @param why  set to what is wrong and what to do, when it is not null: that takes its time
+  bool try_open(std::string* why);
+  bool try_open(const std::string& path, std::string* why);
 
   SerialPortConfig config_;
   std::optional<std::string> lasting_name_;

@@ -16,6 +16,7 @@
 #include "hil_bridge/executive/monotonic_clock.hpp"
 #include "hil_bridge/executive/real_time_rights.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/app/live_watchdog.hpp"
 #include "scenarios/bench/live_bench.hpp"
 #include "scenarios/bench/live_rules.hpp"
 #include "scenarios/config/config_error.hpp"
@@ -61,7 +62,8 @@ std::string timing_line(const hil_bridge::LoopTiming& timing) {
 /// Runs the control loop in a thread of its own, to its end or the first error.
 class ControlThread {
  public:
-  explicit ControlThread(LiveBench& bench) : bench_(bench), thread_([this] { run(); }) {}
+  ControlThread(LiveBench& bench, LiveWatchdog& watchdog, const hil_bridge::transport::ByteStream& line)
+      : bench_(bench), watchdog_(watchdog), line_(line), thread_([this] { run(); }) {}
   ~ControlThread() { bench_.stop(); }
   ControlThread(const ControlThread&) = delete;
   ControlThread& operator=(const ControlThread&) = delete;
@@ -82,16 +84,22 @@ class ControlThread {
     note_ = hil_bridge::take_real_time_rights();
     note_ready_ = true;
     try {
-      while (!bench_.ended()) bench_.pass();
+      while (!bench_.ended()) {
+        watchdog_.before_pass(bench_, line_);
+        bench_.pass();
+      }
     } catch (...) {
       error_ = std::current_exception();
     }
     bench_.close_gate();
+    watchdog_.loop_ends();
     hil_bridge::unlock_memory();
     done_ = true;
   }
 
   LiveBench& bench_;
+  LiveWatchdog& watchdog_;
+  const hil_bridge::transport::ByteStream& line_;
   std::string note_;
   std::exception_ptr error_;
   std::atomic<bool> note_ready_ = false;
@@ -177,6 +185,8 @@ Verdict fly_live(const RunJob& job, const autopilot::Modules& modules, RunListen
   for (const std::string& note : live_notes(job.loaded->scenario)) {
     listener.note(job.name.text() + ": " + note);
   }
+  LiveWatchdog watchdog(job.loaded->scenario);  // before the first thread
+  if (const std::string note = watchdog.note(); !note.empty()) listener.note(job.name.text() + ": " + note);
   const auto line = open_line(address_of(job.loaded->scenario.fcu));
   LiveOptions options;
   if (job.products.log) options.log_file = job.name.folder / "flight.mcap";
@@ -185,9 +195,10 @@ Verdict fly_live(const RunJob& job, const autopilot::Modules& modules, RunListen
   options.verified_patience = at_terminal() ? 0.0 : job.live.verified_patience;
   hil_bridge::MonotonicClock clock;
   LiveBench bench(*job.loaded, modules, options, *line, clock);
-  ControlThread control(bench);
+  ControlThread control(bench, watchdog, *line);
   Console console(job, listener);
   while (!control.done()) {
+    watchdog.operator_lives();
     if (interrupt_requested()) bench.stop();
     if (const std::string note = control.take_note(); !note.empty())
       listener.note(job.name.text() + ": " + note);
@@ -195,6 +206,7 @@ Verdict fly_live(const RunJob& job, const autopilot::Modules& modules, RunListen
     std::this_thread::sleep_for(kShowPeriod);
   }
   control.rethrow();
+  watchdog.leave();
   interrupted = interrupt_requested();
   listener.note(job.name.text() + ": " + timing_line(bench.timing()));
   return bench.finish(std::chrono::duration<double>(clock.now()).count());

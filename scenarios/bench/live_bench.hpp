@@ -76,6 +76,8 @@ class LiveBench {
   /// @throws transport::LinkError, before anything is released only: not the unit that the scenario wants
   Time pass();
   bool ended() const { return ended_; }
+  /// How the watchdog is, before a pass.
+  void watchdog(bool awake) { guard_->watchdog(awake); }
   /// Closes the gate. What is left of the run is paper work.
   void close_gate();
 

@@ -1,12 +1,12 @@
 #include "scenarios/fcu/preflight.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "hil_bridge/executive/unit_watch.hpp"
 #include "scenarios/fcu/printed.hpp"
 #include "scenarios/fcu/unit_report.hpp"
 
@@ -37,8 +37,6 @@ constexpr std::uint64_t kLeastExchanges = 3;  // that are believed; slow ones ar
 constexpr Time kGreatestRoundTrip = std::chrono::milliseconds(20);
 constexpr double kGreatestLoss = 0.01;
 constexpr std::size_t kDifferencesShown = 3;
-constexpr int kFirstSwitchChannel = 4;
-constexpr std::array<std::string_view, 2> kOverrideSwitches = {"RC_ATT_OVRD_CHN", "RC_THR_OVRD_CHN"};
 
 /// The interlock's own words for one of its inputs.
 std::string words_of(std::string_view input) {
@@ -62,9 +60,10 @@ double real(const Monitored& unit, std::string_view name) {
 
 bool override_mapped(const Monitored& unit) {
   const int channels = whole(unit, "RC_NUM_CHN", 0);
-  return std::all_of(kOverrideSwitches.begin(), kOverrideSwitches.end(), [&](std::string_view name) {
+  const auto& switches = hil_bridge::kOverrideSwitches;
+  return std::all_of(switches.begin(), switches.end(), [&](std::string_view name) {
     const int channel = whole(unit, name, -1);
-    return channel >= kFirstSwitchChannel && channel < channels;
+    return channel >= hil_bridge::kFirstSwitchChannel && channel < channels;
   });
 }
 
@@ -232,16 +231,12 @@ void look_at_failsafe(const Monitored& unit, List& list) {
 
 InterlockInputs interlock_inputs(const Monitored& unit, const PreflightWishes& wishes) {
   const hil_bridge::Connection& connection = unit.fcu.connection();
-  const auto& status = connection.status();
   InterlockInputs in;
-  in.link_alive = unit.line_up && connection.heartbeat_alive(unit.now);
+  hil_bridge::report_presence(connection, unit.now, in);
+  in.link_alive = in.link_alive && unit.line_up;
   in.unit_known = connection.state() == hil_bridge::ConnectionState::kReady;
-  in.unit_armed = connection.armed(unit.now);
-  in.unit_disarmed = connection.disarmed(unit.now);
-  in.unit_faultless = status && status->error_code == 0 && status->failsafe == 0;
   in.parameters_equal = connection.parameters().progress().complete && different(unit, wishes).empty();
-  in.sensors_flow = connection.imu_alive(unit.now);
-  in.radio_present = connection.radio_alive(unit.now) && override_mapped(unit);
+  in.radio_present = in.radio_present && override_mapped(unit);
   return in;
 }
 

@@ -9,12 +9,12 @@
 namespace ironbird::hil_bridge::test {
 
 /// Every input.
-inline constexpr std::array<bool InterlockInputs::*, 14> kSwitches = {
+inline constexpr std::array<bool InterlockInputs::*, 15> kSwitches = {
     &InterlockInputs::link_alive,     &InterlockInputs::unit_known,     &InterlockInputs::unit_disarmed,
     &InterlockInputs::unit_armed,     &InterlockInputs::unit_faultless, &InterlockInputs::parameters_equal,
     &InterlockInputs::sensors_flow,   &InterlockInputs::radio_present,  &InterlockInputs::estimate_usable,
-    &InterlockInputs::commands_sound, &InterlockInputs::bench_in_time,  &InterlockInputs::release_wanted,
-    &InterlockInputs::reset_wanted,   &InterlockInputs::kill_wanted};
+    &InterlockInputs::commands_sound, &InterlockInputs::bench_in_time,  &InterlockInputs::watchdog_awake,
+    &InterlockInputs::release_wanted, &InterlockInputs::reset_wanted,   &InterlockInputs::kill_wanted};
 
 /// Everything as it should be before a flight.
 inline InterlockInputs sound() {

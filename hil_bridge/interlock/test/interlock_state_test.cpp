@@ -44,7 +44,7 @@ TEST(InterlockStateTest, IsLiveOnlyAfterReleasedWithAnArmedUnitAndNothingMissing
     EXPECT_TRUE(before == kReleased || before == kLive);
     EXPECT_TRUE(in.unit_armed && !in.unit_disarmed && in.link_alive && in.unit_known && in.sensors_flow &&
                 in.radio_present && in.parameters_equal && in.commands_sound && in.bench_in_time &&
-                !in.kill_wanted);
+                in.watchdog_awake && !in.kill_wanted);
   });
 }
 
@@ -54,7 +54,7 @@ TEST(InterlockStateTest, IsReleasedOnlyByAnOperatorWithADisarmedUnitThatIsVerifi
     EXPECT_EQ(before, kVerified);
     EXPECT_TRUE(in.release_wanted && in.unit_disarmed && !in.unit_armed && in.unit_faultless &&
                 in.parameters_equal && in.radio_present && in.sensors_flow && in.estimate_usable &&
-                in.link_alive && in.unit_known && in.bench_in_time);
+                in.link_alive && in.unit_known && in.bench_in_time && in.watchdog_awake);
   });
 }
 
@@ -80,7 +80,7 @@ TEST(InterlockStateTest, IsKilledByAnyTroubleOnceReleased) {
     if (before != kReleased && before != kLive) return;
     const bool trouble = in.kill_wanted || !in.link_alive || !in.unit_known || !in.sensors_flow ||
                          !in.radio_present || !in.parameters_equal || !in.commands_sound ||
-                         !in.bench_in_time || in.unit_armed == in.unit_disarmed ||
+                         !in.bench_in_time || !in.watchdog_awake || in.unit_armed == in.unit_disarmed ||
                          (before == kReleased && (!in.unit_faultless || !in.estimate_usable));
     EXPECT_EQ(now == kKilled, trouble);
   });

@@ -159,7 +159,8 @@ class Witness {
  public:
   void see(const InterlockInputs& in) {
     const bool well = in.link_alive && in.unit_known && in.parameters_equal && in.sensors_flow &&
-                      in.radio_present && in.commands_sound && in.bench_in_time && !in.kill_wanted;
+                      in.radio_present && in.commands_sound && in.bench_in_time && in.watchdog_awake &&
+                      !in.kill_wanted;
     const bool ready = well && in.unit_disarmed && !in.unit_armed && in.unit_faultless && in.estimate_usable;
     if (!well) released_ = flew_ = false;
     if (released_ && flew_ && in.unit_disarmed) released_ = flew_ = false;

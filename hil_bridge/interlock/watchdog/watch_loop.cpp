@@ -59,6 +59,8 @@ void WatchLoop::run() {
       take_orders();  // it may have taken leave between the two looks
       return left_ ? void() : bite("the bench has ended without taking leave", false);
     }
+    // One that fails before anything was released says why itself.
+    if (abandoned_ && !gate_open()) return;
     if (abandoned_) return bite("the bench has failed and ends", false);
     const Time now = clock_now();
     if (const auto what = silence(now)) return bite(*what + "; the bench was killed", true);
@@ -99,6 +101,10 @@ void WatchLoop::drop_dead_line(Time now) {
   line_.drop_if_dead();
 }
 
+bool WatchLoop::gate_open() const {
+  return shared_.gate_open.beats.load(std::memory_order_relaxed) != 0;
+}
+
 bool WatchLoop::bench_gone(int patience_ms) const {
   return is_readable(bench_.number(), patience_ms);
 }
@@ -125,7 +131,9 @@ void WatchLoop::bite(const std::string& why, bool kill) {
   }
   line_.drop_if_dead();
   line_.discard_old();
-  if (config_.profile == InterlockProfile::kFlight) {
+  if (!gate_open()) {
+    say(why + "; the gate was closed, nothing is sent");
+  } else if (config_.profile == InterlockProfile::kFlight) {
     say(why + "; nothing more is sent, the pilot's radio has the vehicle within the unit's time-out");
   } else if (!line_.has_line()) {
     say(why + "; no line to the unit is open, nothing can be sent");

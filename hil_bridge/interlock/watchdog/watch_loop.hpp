@@ -21,7 +21,8 @@ struct SharedBeats {
     std::atomic<std::uint64_t> beats{0};
   };
   Cell watchdog;
-  Cell priority;  // 1: it got one
+  Cell priority;   // 1: it got one
+  Cell gate_open;  // 1: motor commands leave
   std::array<Cell, Watchdog::kMostThreads> threads;
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
@@ -45,6 +46,7 @@ class WatchLoop {
   void take_orders();
   void take_line(int descriptor);
   void drop_dead_line(Time now);
+  bool gate_open() const;
   bool bench_gone(int patience_ms) const;
   /// What is wrong with a thread, or nothing.
   std::optional<std::string> silence(Time now);

@@ -103,6 +103,10 @@ bool Watchdog::guard_line(int descriptor) {
   return sendmsg(socket_.number(), &message, MSG_DONTWAIT | MSG_NOSIGNAL) == 1;
 }
 
+void Watchdog::gate_open(bool open) {
+  shared_->gate_open.beats.store(open ? 1 : 0, std::memory_order_relaxed);
+}
+
 bool Watchdog::watching(Time now) {
   siginfo_t ended{};
   const int asked = waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);

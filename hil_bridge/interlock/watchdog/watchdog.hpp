@@ -86,6 +86,10 @@ class Watchdog {
   /// @return has it been handed over?
   bool guard_line(int descriptor);
 
+  /// Is the gate open for motor commands, be they zeros? Told in every pass, no system call. While it is not,
+  /// nothing is sent after a bite either: the unit is somebody else's, perhaps in the air.
+  void gate_open(bool open);
+
   /// Is the watchdog there and awake? Asked by the control loop in every pass; a bench that hears no kills.
   bool watching(Time now);
 

@@ -1,7 +1,7 @@
 // A bench in small: a control loop that commands half thrust over a serial line, a second thread, and a
 // watchdog over both. The test stops it, kills it and lets its threads deadlock.
 //
-//   guarded_bench DEVICE bench|flight
+//   guarded_bench DEVICE bench|flight open|closed
 //
 // SIGUSR1: the control loop deadlocks. SIGUSR2: the other thread does. SIGTERM: a clean end. Says on standard
 // output, once, what it ended for.
@@ -44,7 +44,8 @@ Time now() {
 /// What the control loop does with the line: empties it, brings it up again, commands.
 class Commander {
  public:
-  Commander(const std::string& device, Watchdog& watchdog) : port_({device, 921600}), watchdog_(watchdog) {
+  Commander(const std::string& device, bool open, Watchdog& watchdog)
+      : port_({device, 921600}), watchdog_(watchdog), open_(open) {
     port_.open();
     watchdog_.guard_line(port_.descriptor());
   }
@@ -54,7 +55,8 @@ class Commander {
     std::array<std::uint8_t, 4096> bytes{};
     while (port_.read(bytes) > 0) {
     }
-    if (!port_.is_up()) return;
+    watchdog_.gate_open(open_);
+    if (!port_.is_up() || !open_) return;
     rosflight::OffboardControl half;
     half.u[2] = -0.5F;
     const auto frame = rosflight::encode_frame(half, sequence_++, {1, 50});
@@ -64,6 +66,7 @@ class Commander {
  private:
   transport::SerialPort port_;
   Watchdog& watchdog_;
+  bool open_;
   std::uint8_t sequence_ = 0;
 };
 
@@ -90,7 +93,7 @@ int main(int, char** argv) {
     watchdog.pulse(1).rest();
   });
   const char* why = "leave";
-  Commander commander(argv[1], watchdog);
+  Commander commander(argv[1], std::string(argv[3]) == "open", watchdog);
   while (end_wanted == 0) {
     if (deadlock_control != 0) deadlock();
     watchdog.pulse(0).beat();

@@ -204,6 +204,18 @@ TEST_F(WatchdogTest, SendsItsZerosOverTheLineThatCameBack) {
   EXPECT_THAT(bench_->complaints(), HasSubstr("without taking leave; sending zero thrust"));
 }
 
+TEST_F(WatchdogTest, SendsNothingForABenchWhoseGateIsClosed) {
+  bench_.emplace(unit_.line.name(), InterlockProfile::kBench, /*gate_open=*/false);
+  unit_.pass(milliseconds(300));
+  bench_->signal(SIGSTOP);
+  unit_.until(kPatience, [&] { return !bench_->watchdog_lives(); });
+  unit_.pass(milliseconds(100));
+  EXPECT_TRUE(bench_->ended());
+  EXPECT_EQ(unit_.line.zeros, 0);
+  EXPECT_NEAR(unit_.motor(), kPilotsMotors, kClose);
+  EXPECT_THAT(bench_->complaints(), HasSubstr("the gate was closed, nothing is sent"));
+}
+
 TEST_F(WatchdogTest, SaysThatAnArmedUnitIsLeftAfterTheLastZero) {
   fly(InterlockProfile::kBench);
   bench_->signal(SIGSTOP);

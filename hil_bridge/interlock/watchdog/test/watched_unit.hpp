@@ -125,7 +125,7 @@ class WatchedUnit {
 /// The process of guarded_bench.cpp.
 class BenchProcess {
  public:
-  BenchProcess(const std::string& device, InterlockProfile profile) {
+  BenchProcess(const std::string& device, InterlockProfile profile, bool gate_open = true) {
     std::array<int, 2> out{};
     std::array<int, 2> error{};
     if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(error.data(), O_CLOEXEC) != 0) return;
@@ -134,7 +134,8 @@ class BenchProcess {
       dup2(out[1], STDOUT_FILENO);
       dup2(error[1], STDERR_FILENO);
       execl(GUARDED_BENCH, "guarded_bench", device.c_str(),
-            profile == InterlockProfile::kFlight ? "flight" : "bench", nullptr);
+            profile == InterlockProfile::kFlight ? "flight" : "bench", gate_open ? "open" : "closed",
+            nullptr);
       _exit(127);
     }
     out_ = transport::FileDescriptor(out[0]);
