@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::chrono::nanoseconds kProgressPeriod = std::chrono::seconds(1);
 // So far behind a unit that does not wait is a hiccup; more, and the flight is another one.
-constexpr std::chrono::nanoseconds kGreatestLoss = std::chrono::seconds(1);
+constexpr double kGreatestLoss = 1.0;  // s
 constexpr std::chrono::nanoseconds kHealthPeriod = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -202,9 +202,10 @@ void Bench::publish_events(Time now) {
 }
 
 Verdict Bench::finish(double wall_seconds) {
-  if (rig_ && rig_->lost() > kGreatestLoss) {
-    broken_promises_.push_back("this machine was too slow: the run fell " +
-                               std::to_string(to_seconds(rig_->lost())) + " s behind the unit");
+  const double lost = rig_ ? to_seconds(rig_->lost()) * scenario_.fcu.time_scale : 0.0;
+  if (lost > kGreatestLoss) {
+    broken_promises_.push_back("this machine was too slow: the run fell " + std::to_string(lost) +
+                               " s behind the unit");
   }
   if (interrupted_) broken_promises_.emplace_back("the run was interrupted");
   Verdict verdict = judge_->finish({loaded_.name, scenario_.title, scenario_.seed, loaded_.digest},
