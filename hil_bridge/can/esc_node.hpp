@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "hil_bridge/can/dronecan_messages.hpp"
 #include "hil_bridge/can/dynamic_node_id.hpp"
@@ -56,6 +58,13 @@ struct EscReading {
 
 /// Why a motor does what it does.
 enum class EscCondition : std::uint8_t { kRunning, kNeverCommanded, kStale, kDisarmed };
+
+constexpr std::array<std::pair<EscCondition, std::string_view>, 4> enumerators(EscCondition) {
+  return {{{EscCondition::kRunning, "running"},
+           {EscCondition::kNeverCommanded, "never_commanded"},
+           {EscCondition::kStale, "stale"},
+           {EscCondition::kDisarmed, "disarmed"}}};
+}
 
 struct EscCommand {
   double throttle = 0.0;

@@ -128,6 +128,15 @@ FrameBytes encode_frame(const Message& message, std::uint8_t sequence, Address s
   return frame;
 }
 
+std::size_t piece_length(std::span<const std::uint8_t> bytes) {
+  if (bytes.empty()) return 0;
+  if (bytes[0] != kFrameStart) {
+    return static_cast<std::size_t>(std::find(bytes.begin(), bytes.end(), kFrameStart) - bytes.begin());
+  }
+  const std::size_t length = bytes.size() < 2 ? kGreatestFrame : bytes[1] + kFrameOverhead;
+  return length <= bytes.size() && bytes.size() > 1 ? length : 0;
+}
+
 const MessageInfo* message_of_header(std::span<const std::uint8_t> frame) {
   const std::uint8_t place = kPlaces[frame[5]];
   return place < kDialect.size() && kDialect[place].length == frame[1] ? &kDialect[place] : nullptr;

@@ -57,6 +57,10 @@ struct Frame {
 inline constexpr std::uint8_t kFrameStart = 0xFE;
 inline constexpr std::size_t kFrameHeader = 6;  ///< bytes before the payload
 
+/// How long the frame is that these bytes begin with, sound or not, or what stands before the next start
+/// byte; 0: the rest of it has not come yet.
+std::size_t piece_length(std::span<const std::uint8_t> bytes);
+
 /// The message whose number and length stand in this header, or null.
 /// @param frame  begins with the start byte; at least a header long
 const MessageInfo* message_of_header(std::span<const std::uint8_t> frame);

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "hil_bridge/rosflight/frame_codec.hpp"
 #include "hil_bridge/transport/pseudo_terminal.hpp"
 #include "hil_bridge/transport/serial_port.hpp"
 #include "hil_bridge/virtual_fcu/served_fcu.hpp"
@@ -54,19 +55,28 @@ void wait_for_bytes(const transport::ByteStream& line) {
 }  // namespace
 
 struct VirtualSerialFcu::Line {
-  Line(Fcu& fcu, std::uint8_t system, Gate* gate)
+  Line(Fcu& fcu, const VirtualSerialConfig& config, Gate* gate)
       : unit(fcu),
         port({terminal.device(), kAnyBaud}),
         there(terminal),
         here(port),
-        served(fcu, there, system),
-        serial(here, {.system = system, .synchronise = false, .download = true}, gate) {
+        faults(config.faults ? std::make_unique<transport::LinkFault>(here, *config.faults, config.seed,
+                                                                      &rosflight::piece_length)
+                             : nullptr),
+        served(fcu, there, config.system),
+        serial(faults ? static_cast<transport::ByteStream&>(*faults) : here,
+               {.system = config.system, .synchronise = false, .download = true}, gate) {
     port.open();
   }
 
-  /// Until all that was sent to the unit is there.
-  void bring_up() {
-    while (!serial.flush()) served.take();
+  /// Until all that was sent to the unit before `now` is there.
+  void bring_up(Time now) {
+    if (faults) {
+      const Time before = now - Time(1);
+      for (faults->advance(before); faults->waiting(); faults->advance(before)) served.take();
+    } else {
+      while (!serial.flush()) served.take();
+    }
     for (served.take(); there.bytes_read() < here.bytes_written(); served.take()) wait_for_bytes(there);
   }
 
@@ -74,6 +84,7 @@ struct VirtualSerialFcu::Line {
   void bring_down(Time now) {
     do {
       served.give();
+      if (faults) faults->advance(now);
       serial.advance(now);
       if (here.bytes_read() < there.bytes_written()) wait_for_bytes(here);
     } while (!served.all_given() || here.bytes_read() < there.bytes_written());
@@ -84,16 +95,17 @@ struct VirtualSerialFcu::Line {
   transport::SerialPort port;
   CountedStream there;
   CountedStream here;
+  std::unique_ptr<transport::LinkFault> faults;
   ServedFcu served;
   SerialFcu serial;
 };
 
-VirtualSerialFcu::VirtualSerialFcu(Fcu& unit, std::uint8_t system, Gate* gate)
-    : line_(std::make_unique<Line>(unit, system, gate)) {}
+VirtualSerialFcu::VirtualSerialFcu(Fcu& unit, const VirtualSerialConfig& config, Gate* gate)
+    : line_(std::make_unique<Line>(unit, config, gate)) {}
 VirtualSerialFcu::~VirtualSerialFcu() = default;
 
 void VirtualSerialFcu::advance(Time now) {
-  line_->bring_up();
+  line_->bring_up(now);
   line_->unit.advance(now);
   line_->bring_down(now);
 }
@@ -112,6 +124,9 @@ void VirtualSerialFcu::set_gate(Gate& gate) {
 
 const SerialFcu& VirtualSerialFcu::serial() const {
   return line_->serial;
+}
+transport::LinkFault* VirtualSerialFcu::faults() {
+  return line_->faults.get();
 }
 std::uint64_t VirtualSerialFcu::bytes_up() const {
   return line_->here.bytes_written();

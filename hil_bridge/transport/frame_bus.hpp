@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "hil_bridge/can/can_frame.hpp"
 
@@ -15,6 +17,14 @@ using can::Time;
 
 /// How much a controller still trusts itself on its bus. The error counters decide: 96, 128, 256.
 enum class BusState : std::uint8_t { kActive, kWarning, kPassive, kOff, kDown };
+
+constexpr std::array<std::pair<BusState, std::string_view>, 5> enumerators(BusState) {
+  return {{{BusState::kActive, "active"},
+           {BusState::kWarning, "warning"},
+           {BusState::kPassive, "passive"},
+           {BusState::kOff, "off"},
+           {BusState::kDown, "down"}}};
+}
 
 /// What happens on a bus besides frames.
 enum class BusEventKind : std::uint8_t {
@@ -31,6 +41,8 @@ enum class BusEventKind : std::uint8_t {
   kLost,           ///< frames arrived faster than they were fetched
   kSendTimeout,    ///< the controller could not get rid of a frame
 };
+
+inline constexpr std::size_t kBusEventKinds = 12;
 
 /// For people.
 constexpr std::string_view name_of(BusEventKind kind) {

@@ -2,132 +2,51 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
-#include <utility>
-
-#include "simulator/types/bounds.hpp"
 
 namespace ironbird::hil_bridge::transport {
 
-namespace {
-
 using std::chrono::nanoseconds;
 
-constexpr double kNanoseconds = 1e9;
-constexpr std::size_t kGreatestNoise = 16;
-
-DirectionFaults checked(const DirectionFaults& faults) {
-  simulator::check_bounds(faults, "link_fault");
-  return faults;
-}
-
-simulator::Stream stream(std::uint64_t seed, std::string_view direction, std::string_view kind) {
-  return {seed, "link/" + std::string(direction) + "/" + std::string(kind)};
-}
-
-}  // namespace
-
-FaultyDirection::FaultyDirection(const DirectionFaults& faults, std::uint64_t seed, std::string_view name)
-    : faults_(checked(faults)),
-      drop_(stream(seed, name, "drop")),
-      burst_(stream(seed, name, "burst")),
-      corrupt_(stream(seed, name, "corrupt")),
-      insert_(stream(seed, name, "insert")),
-      duplicate_(stream(seed, name, "duplicate")),
-      reorder_(stream(seed, name, "reorder")),
-      stall_(stream(seed, name, "stall")),
-      delay_(stream(seed, name, "delay")),
-      hang_up_(stream(seed, name, "hang_up")) {}
-
-bool FaultyDirection::put(std::span<const std::uint8_t> piece, nanoseconds now) {
-  ++counts_.pieces;
-  if (hang_up_.uniform() < faults_.hang_up) {
-    ++counts_.hang_ups;
-    // The cut goes through the piece: the first part of it is on its way already.
-    const auto part = static_cast<std::size_t>(hang_up_.uniform() * static_cast<double>(piece.size()));
-    deliver({piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(part)}, now);
-    return false;
-  }
-  if (lost()) {
-    ++counts_.dropped;
-    return true;
-  }
-  std::vector<std::uint8_t> bytes(piece.begin(), piece.end());
-  disturb(bytes);
-  const bool twice = duplicate_.uniform() < faults_.duplicate;
-  if (twice) {
-    ++counts_.duplicated;
-    deliver(bytes, now);
-  }
-  deliver(std::move(bytes), now);
-  return true;
-}
-
-bool FaultyDirection::lost() {
-  in_burst_ = in_burst_ ? burst_.uniform() >= faults_.burst_end : burst_.uniform() < faults_.burst_start;
-  return drop_.uniform() < faults_.drop || in_burst_;
-}
-
-void FaultyDirection::disturb(std::vector<std::uint8_t>& bytes) {
-  if (faults_.corrupt > 0.0) {
-    for (std::uint8_t& byte : bytes) {
-      if (corrupt_.uniform() >= faults_.corrupt) continue;
-      byte ^= static_cast<std::uint8_t>(1U << static_cast<unsigned>(corrupt_.uniform() * 8.0));
-      ++counts_.corrupted_bytes;
-    }
-  }
-  if (insert_.uniform() >= faults_.insert) return;
-  std::vector<std::uint8_t> noise(1 + static_cast<std::size_t>(insert_.uniform() * kGreatestNoise));
-  for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(insert_.uniform() * 256.0);
-  counts_.inserted_bytes += noise.size();
-  bytes.insert(bytes.begin(), noise.begin(), noise.end());
-}
-
-void FaultyDirection::deliver(std::vector<std::uint8_t> bytes, nanoseconds now) {
-  if (stall_.uniform() < faults_.stall) {
-    ++counts_.stalls;
-    line_free_ = std::max(line_free_, now) + faults_.stall_time;
-  }
-  line_free_ = std::max(line_free_, now);
-  if (faults_.byte_rate > 0.0) {
-    line_free_ += nanoseconds(
-        static_cast<std::int64_t>(static_cast<double>(bytes.size()) / faults_.byte_rate * kNanoseconds));
-  }
-  const auto jitter =
-      static_cast<std::int64_t>(delay_.uniform() * static_cast<double>(faults_.jitter.count()));
-  nanoseconds when = line_free_ + faults_.latency + nanoseconds(jitter);
-  // Pieces keep their order: jitter moves them, it does not let them pass.
-  if (!under_way_.empty()) when = std::max(when, under_way_.back().when);
-  under_way_.push_back({when, std::move(bytes)});
-  if (under_way_.size() > 1 && reorder_.uniform() < faults_.reorder) {
-    ++counts_.reordered;
-    std::swap(under_way_.back().bytes, std::prev(under_way_.end(), 2)->bytes);
-  }
-}
-
-FaultyDirection::Due* FaultyDirection::due(nanoseconds now) {
-  return under_way_.empty() || under_way_.front().when > now ? nullptr : &under_way_.front();
-}
-
-void FaultyDirection::clear() {
-  under_way_.clear();
-  line_free_ = {};
-}
-
-LinkFault::LinkFault(ByteStream& line, const LinkFaultConfig& config, std::uint64_t seed)
+LinkFault::LinkFault(ByteStream& line, const LinkFaultConfig& config, std::uint64_t seed, PieceLength pieces)
     : line_(line),
       outgoing_(config.outgoing, seed, "outgoing"),
-      incoming_(config.incoming, seed, "incoming") {}
+      incoming_(config.incoming, seed, "incoming"),
+      pieces_(pieces) {}
 
 void LinkFault::advance(nanoseconds now) {
   now_ = now;
   std::array<std::uint8_t, 4096> bytes{};
-  while (up_) {
-    const std::size_t count = line_.read(bytes);
-    if (count == 0) break;
-    if (!incoming_.put(std::span(bytes).first(count), now_)) cut();
+  // What comes while the line is cut is gone.
+  while (const std::size_t count = line_.read(bytes)) {
+    if (up_) take(std::span(bytes).first(count));
   }
   send_due();
+}
+
+void LinkFault::take(std::span<const std::uint8_t> bytes) {
+  begun_.insert(begun_.end(), bytes.begin(), bytes.end());
+  std::span<const std::uint8_t> left(begun_);
+  while (!left.empty()) {
+    const std::size_t length = pieces_ == nullptr ? left.size() : pieces_(left);
+    if (length == 0) break;
+    if (!incoming_.put(left.first(length), now_)) return cut(incoming_.faults().hang_up_time);
+    left = left.subspan(length);
+  }
+  begun_.erase(begun_.begin(), begun_.end() - static_cast<std::ptrdiff_t>(left.size()));
+}
+
+void LinkFault::set(const LinkFaultConfig& config) {
+  outgoing_.set(config.outgoing);
+  incoming_.set(config.incoming);
+}
+
+void LinkFault::stand_still(nanoseconds until) {
+  outgoing_.stand_still(until);
+  incoming_.stand_still(until);
+}
+
+void LinkFault::hang_up(nanoseconds until) {
+  cut(until - now_);
 }
 
 void LinkFault::send_due() {
@@ -162,17 +81,20 @@ std::size_t LinkFault::write(std::span<const std::uint8_t> from) {
   if (!is_up()) return 0;
   const bool holds = outgoing_.put(from, now_);
   send_due();
-  if (!holds) cut();
+  if (!holds) cut(outgoing_.faults().hang_up_time);
   return from.size();
 }
 
-void LinkFault::cut() {
+void LinkFault::cut(nanoseconds closed_for) {
   up_ = false;
+  closed_until_ = std::max(closed_until_, now_ + closed_for);
   outgoing_.clear();
   incoming_.clear();
+  begun_.clear();
 }
 
 bool LinkFault::reopen() {
+  if (now_ < closed_until_) return false;
   up_ = line_.is_up() || line_.reopen();
   return up_;
 }

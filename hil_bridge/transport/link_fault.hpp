@@ -2,144 +2,36 @@
 
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "hil_bridge/transport/byte_stream.hpp"
-#include "simulator/random/stream.hpp"
+#include "hil_bridge/transport/faulty_direction.hpp"
 
 namespace ironbird::hil_bridge::transport {
 
-/// What goes wrong with one direction of a line. A piece is what one write handed over: here a frame.
-struct DirectionFaults {
-  double drop = 0.0;
-  double burst_start = 0.0;
-  double burst_end = 0.1;
-  double corrupt = 0.0;
-  double insert = 0.0;
-  double duplicate = 0.0;
-  double reorder = 0.0;
-  double stall = 0.0;
-  std::chrono::nanoseconds stall_time{};
-  std::chrono::nanoseconds latency{};
-  std::chrono::nanoseconds jitter{};
-  double byte_rate = 0.0;
-  double hang_up = 0.0;
-
-  template <class Self, class Visit>
-  static void describe(Self& self, Visit&& visit) {
-    visit("drop", self.drop, "1", "probability that a piece is lost", 0.0, 1.0);
-    visit("burst_start", self.burst_start, "1", "probability that a burst of losses begins with a piece", 0.0,
-          1.0);
-    visit("burst_end", self.burst_end, "1", "probability that it ends with a piece; 1/it is its mean length",
-          1e-6, 1.0);
-    visit("corrupt", self.corrupt, "1", "probability that a byte has a false bit", 0.0, 1.0);
-    visit("insert", self.insert, "1", "probability that 1 to 16 bytes of noise come before a piece", 0.0,
-          1.0);
-    visit("duplicate", self.duplicate, "1", "probability that a piece comes twice", 0.0, 1.0);
-    visit("reorder", self.reorder, "1", "probability that a piece comes after the one behind it", 0.0, 1.0);
-    visit("stall", self.stall, "1", "probability that the line stands still with a piece", 0.0, 1.0);
-    visit("stall_time", self.stall_time, "ns", "how long it stands", 0.0, 1e11);
-    visit("latency", self.latency, "ns", "least delay of a piece", 0.0, 1e10);
-    visit("jitter", self.jitter, "ns", "greatest delay on top, any as likely as another", 0.0, 1e10);
-    visit("byte_rate", self.byte_rate, "byte/s", "what the line carries, a tenth of the baud rate; 0: any",
-          0.0, 1e9);
-    visit("hang_up", self.hang_up, "1", "probability that the line is cut with a piece", 0.0, 1.0);
-  }
-};
-
-/// Both directions, as seen from the end that has the fault.
-struct LinkFaultConfig {
-  DirectionFaults outgoing;
-  DirectionFaults incoming;
-
-  template <class Self, class Visit>
-  static void describe(Self& self, Visit&& visit) {
-    visit("outgoing", self.outgoing, "", "what is written here");
-    visit("incoming", self.incoming, "", "what is read here");
-  }
-};
-
-/// What the faults of one direction did.
-struct FaultCounts {
-  std::uint64_t pieces = 0;
-  std::uint64_t dropped = 0;
-  std::uint64_t corrupted_bytes = 0;
-  std::uint64_t inserted_bytes = 0;
-  std::uint64_t duplicated = 0;
-  std::uint64_t reordered = 0;
-  std::uint64_t stalls = 0;
-  std::uint64_t hang_ups = 0;
-
-  template <class Self, class Visit>
-  static void describe(Self& self, Visit&& visit) {
-    visit("pieces", self.pieces, "1", "handed over");
-    visit("dropped", self.dropped, "1", "pieces lost, bursts included");
-    visit("corrupted_bytes", self.corrupted_bytes, "byte", "with a false bit");
-    visit("inserted_bytes", self.inserted_bytes, "byte", "of noise");
-    visit("duplicated", self.duplicated, "1", "pieces that came twice");
-    visit("reordered", self.reordered, "1", "pieces that came after the one behind them");
-    visit("stalls", self.stalls, "1", "times that the line stood still");
-    visit("hang_ups", self.hang_ups, "1", "times that the line was cut");
-  }
-};
-
-/// One direction of a faulty line: pieces go in, what is left of them comes out when it is due. Pure; every
-/// kind of fault draws from its own stream of random numbers, so that one does not move another.
-class FaultyDirection {
- public:
-  /// @param name  of the direction, in the names of its streams
-  /// @throws std::invalid_argument naming key, value and bound
-  FaultyDirection(const DirectionFaults& faults, std::uint64_t seed, std::string_view name);
-
-  /// @return does the line hold?
-  bool put(std::span<const std::uint8_t> piece, std::chrono::nanoseconds now);
-
-  struct Due {
-    std::chrono::nanoseconds when{};
-    std::vector<std::uint8_t> bytes;
-  };
-  /// The next piece that is due by `now`, or null. It stays until `pop`.
-  Due* due(std::chrono::nanoseconds now);
-  void pop() { under_way_.pop_front(); }
-
-  /// What is under way is lost.
-  void clear();
-  bool empty() const { return under_way_.empty(); }
-  const FaultCounts& counts() const { return counts_; }
-
- private:
-  bool lost();
-  void deliver(std::vector<std::uint8_t> bytes, std::chrono::nanoseconds now);
-  void disturb(std::vector<std::uint8_t>& bytes);
-
-  DirectionFaults faults_;
-  simulator::Stream drop_;
-  simulator::Stream burst_;
-  simulator::Stream corrupt_;
-  simulator::Stream insert_;
-  simulator::Stream duplicate_;
-  simulator::Stream reorder_;
-  simulator::Stream stall_;
-  simulator::Stream delay_;
-  simulator::Stream hang_up_;
-  bool in_burst_ = false;
-  std::chrono::nanoseconds line_free_{};
-  std::deque<Due> under_way_;
-  FaultCounts counts_;
-};
+/// How long the piece is that these bytes begin with; 0: the rest of it has not come yet.
+using PieceLength = std::size_t (*)(std::span<const std::uint8_t> bytes);
 
 /// A line that loses, delays, spoils and cuts, around any other. Time is told to it, so that a run in
 /// simulated time has the same faults every time.
 class LinkFault final : public ByteStream {
  public:
   /// @param line  outlives this
-  LinkFault(ByteStream& line, const LinkFaultConfig& config, std::uint64_t seed);
+  /// @param pieces  cuts what is read into pieces; null: what is read at once is one. What is written at once
+  ///                always is
+  LinkFault(ByteStream& line, const LinkFaultConfig& config, std::uint64_t seed,
+            PieceLength pieces = nullptr);
 
   /// What is due by `now` goes out, and what has come in is taken.
   void advance(std::chrono::nanoseconds now);
+
+  /// Other faults from now on. @throws std::invalid_argument naming key, value and bound
+  void set(const LinkFaultConfig& config);
+  /// Nothing goes either way until then; nothing is lost.
+  void stand_still(std::chrono::nanoseconds until);
+  /// Cuts the line; it cannot be opened again before then.
+  void hang_up(std::chrono::nanoseconds until);
 
   std::size_t read(std::span<std::uint8_t> to) override;
   std::size_t write(std::span<const std::uint8_t> from) override;
@@ -148,17 +40,24 @@ class LinkFault final : public ByteStream {
   int descriptor() const override { return line_.descriptor(); }
   std::string name() const override { return line_.name() + " with faults"; }
 
+  /// Something is due that the line does not take yet.
+  bool waiting() { return outgoing_.due(now_) != nullptr; }
+
   const FaultCounts& outgoing() const { return outgoing_.counts(); }
   const FaultCounts& incoming() const { return incoming_.counts(); }
 
  private:
-  void cut();
+  void take(std::span<const std::uint8_t> bytes);
+  void cut(std::chrono::nanoseconds closed_for);
   void send_due();
 
   ByteStream& line_;
   FaultyDirection outgoing_;
   FaultyDirection incoming_;
+  PieceLength pieces_;
+  std::vector<std::uint8_t> begun_;  // a piece of which the rest has not come yet
   std::chrono::nanoseconds now_{};
+  std::chrono::nanoseconds closed_until_{};
   bool up_ = true;
 };
 

@@ -27,6 +27,7 @@ struct VirtualFcuConfig {
   double pwm_resolution = 0.0;
   bool calibrate_imu_at_start = true;
   bool undefined_when_inverted = false;
+  bool on_desk = false;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -47,6 +48,8 @@ struct VirtualFcuConfig {
           "orders an IMU calibration with the first tick: 2.5 s at rest");
     visit("undefined_when_inverted", self.undefined_when_inverted, "1",
           "reproduces the filter's division by zero for an accelerometer exactly along +Bz");
+    visit("on_desk", self.on_desk, "1",
+          "the virtual unit's own vehicle stands still whatever its outputs are");
   }
 };
 

@@ -29,6 +29,7 @@ class VirtualFcu final : public Fcu {
  private:
   simulator::World& world_;
   Time tick_;
+  bool on_desk_;
   FirmwareHost host_;
 };
 

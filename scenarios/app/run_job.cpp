@@ -23,6 +23,7 @@ Verdict fly_simulated(const RunJob& job, const autopilot::Modules& modules, RunL
                       bool& interrupted) {
   const auto start = std::chrono::steady_clock::now();
   BenchOptions options;
+  options.released = job.live.released;
   if (job.products.log) options.log_file = job.name.folder / "flight.mcap";
   options.on_progress = [&](const Progress& progress) {
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -60,7 +61,9 @@ void carry_out(const RunJob& job, const autopilot::Modules& modules, RunListener
   const std::filesystem::path& folder = job.name.folder;
   if (job.products.video || job.products.snapshots) check_scene(*job.loaded);
   // A run that cannot be wired leaves the results of an earlier one alone.
-  if (job.loaded->scenario.fcu.kind != FcuKind::kSerial) const Bench possible(*job.loaded, modules, {});
+  const FcuConfig& fcu = job.loaded->scenario.fcu;
+  const bool own_unit = fcu.kind != FcuKind::kSerial && (fcu.kind != FcuKind::kHil || fcu.has_own_unit());
+  if (own_unit) const Bench possible(*job.loaded, modules, {});
   make_folder(folder);
   remove_old_products(folder);
   bool interrupted = false;

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "autopilot/autopilot.hpp"
+#include "hil_bridge/hil_fcu/can_motors.hpp"
+#include "hil_bridge/serial_fcu/link_statistics.hpp"
 #include "hil_bridge/translate/telemetry.hpp"
 #include "scenarios/app/command_line.hpp"
 #include "scenarios/app/exit_code.hpp"
@@ -19,10 +21,14 @@ void print_signals() {
   const simulator::Truth truth;
   const autopilot::Signals signals;
   const hil_bridge::Telemetry telemetry;
+  const hil_bridge::LinkHealth link;
+  const hil_bridge::CanMotorsStatus can;
   SignalTable table;
   table.add("truth", truth);
   table.add("autopilot", signals);
   table.add("fcu", telemetry);
+  table.add("link", link);
+  table.add("can", can);
   std::puts("Signals: for checks, and topics of the log");
   for (const SignalLeaf& leaf : table.leaves()) {
     std::printf("  %-58s %-10s %s\n", leaf.path.c_str(), leaf.unit.c_str(), leaf.meaning.c_str());

@@ -1,8 +1,11 @@
 #include "scenarios/bench/bench.hpp"
 
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "scenarios/bench/check_rules.hpp"
+#include "scenarios/bench/hil_rig.hpp"
 #include "scenarios/bench/make_guard.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
@@ -13,49 +16,108 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr std::chrono::nanoseconds kProgressPeriod = std::chrono::seconds(1);
+// So far behind a unit that does not wait is a hiccup; more, and the flight is another one.
+constexpr double kGreatestLoss = 1.0;  // s
+constexpr std::chrono::nanoseconds kHealthPeriod = std::chrono::milliseconds(100);
 
 }  // namespace
 
 Bench::Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, BenchOptions options)
-    : loaded_(loaded), scenario_(loaded.scenario), options_(std::move(options)), playbook_(scenario_) {
+    : loaded_(loaded),
+      scenario_(loaded.scenario),
+      options_(std::move(options)),
+      playbook_(scenario_),
+      link_faults_(loaded.scenario.fcu.link_fault),
+      bus_faults_(loaded.scenario.fcu.bus_fault) {
   world_ = make_world(scenario_);
-  fcu_ = std::make_unique<hil_bridge::VirtualFcu>(scenario_.fcu, *world_);
   autopilot_ = make_autopilot(loaded_, modules);
   wire_unit();
   add_signals(signals_, &world_->truth(), autopilot_->signals(), lockstep_->telemetry(),
               scenario_.vehicle.rotors.size());
+  const bool on_bus = rig_ && rig_->motors() != nullptr;
+  add_link_signals(signals_, scenario_, link_health_, on_bus ? rig_->motors()->status() : no_motors_);
   judge_ = std::make_unique<Judge>(scenario_.checks, signals_,
                                    RunMetrics::Sources{&world_->truth(), &autopilot_->signals()},
                                    scenario_.fcu.tick);
   operator_ = std::make_unique<Operator>(loaded_, *autopilot_, *judge_);
   wire_script();
-  if (options_.log_file.empty()) return;
+  if (!options_.log_file.empty()) wire_log();
+}
+
+Bench::~Bench() = default;
+
+void Bench::wire_log() {
   log_ = std::make_unique<FlightLog>(
       options_.log_file,
       McapOptions{.journal = scenario_.record.journal, .compress = scenario_.record.compress}, loaded_,
       FlightLog::Sources{*autopilot_, lockstep_->telemetry(), &world_->truth()});
   operator_->on_swap([this](const std::string& slot, const std::string& kind,
                             const autopilot::Module& module) { log_->watch(slot, kind, module); });
+  // A line that cannot fail has nothing to tell: its log is that of a unit without a line.
+  if (rig_ || (line_ && line_->faults() != nullptr)) {
+    log_->recorder().add("/fcu/link", link_health_, kHealthPeriod, Recorder::When::kAlways);
+  }
+  if (rig_ && rig_->motors() != nullptr) {
+    log_->recorder().add("/can/motors", rig_->motors()->status(),
+                         from_seconds(scenario_.record.signal_period), Recorder::When::kAlways);
+  }
 }
 
-Bench::~Bench() = default;
-
-/// The gate is the same as before a real unit. Who releases it is the simulated pilot, just before they arm.
+/// The gate is the same as before a real unit. Who releases it is the simulated pilot, just before they arm;
+/// with a unit at the other end of a line the operator.
 void Bench::wire_unit() {
-  const hil_bridge::InterlockConfig config = interlock_config(scenario_);
-  hil_bridge::Fcu* reached = fcu_.get();
-  if (scenario_.fcu.kind == FcuKind::kVirtual) {
-    unit_watch_ = std::make_unique<hil_bridge::OwnUnitWatch>(has_override_switches(scenario_));
-    guard_ = std::make_unique<hil_bridge::Guard>(config, *unit_watch_);
+  hil_bridge::Fcu* reached = nullptr;
+  if (scenario_.fcu.kind == FcuKind::kHil) {
+    wire_desk();
+    reached = &rig_->fcu();
   } else {
-    line_ = std::make_unique<hil_bridge::VirtualSerialFcu>(
-        *fcu_, static_cast<std::uint8_t>(unit_parameter(scenario_, "SYS_ID")));
-    unit_watch_ = std::make_unique<hil_bridge::LineUnitWatch>(line_->serial(), wanted_parameters(scenario_));
-    guard_ = std::make_unique<hil_bridge::Guard>(config, *unit_watch_);
-    line_->set_gate(*guard_);
-    reached = line_.get();
+    fcu_ = std::make_unique<hil_bridge::VirtualFcu>(scenario_.fcu, *world_);
+    reached = fcu_.get();
+    if (scenario_.fcu.kind == FcuKind::kVirtual) {
+      unit_watch_ = std::make_unique<hil_bridge::OwnUnitWatch>(has_override_switches(scenario_));
+    } else {
+      wire_line();
+      reached = line_.get();
+    }
   }
+  guard_ = std::make_unique<hil_bridge::Guard>(interlock_config(scenario_), *unit_watch_);
+  if (line_) line_->set_gate(*guard_);
+  if (rig_) rig_->set_gate(*guard_);
   lockstep_ = std::make_unique<hil_bridge::Lockstep>(*reached, *autopilot_, *guard_, scenario_.fcu.tick);
+}
+
+void Bench::wire_line() {
+  hil_bridge::VirtualSerialConfig config;
+  config.system = static_cast<std::uint8_t>(unit_parameter(scenario_, "SYS_ID"));
+  config.seed = scenario_.seed;
+  if (line_may_fail()) config.faults = scenario_.fcu.link_fault;
+  line_ = std::make_unique<hil_bridge::VirtualSerialFcu>(*fcu_, config);
+  unit_watch_ = std::make_unique<hil_bridge::LineUnitWatch>(line_->serial(), wanted_parameters(scenario_));
+}
+
+void Bench::wire_desk() {
+  if (!scenario_.fcu.has_own_unit() && !options_.released) {
+    throw std::invalid_argument(
+        "fcu.line = \"" + scenario_.fcu.line +
+        "\": the outputs of a unit at the other end of a line may have real motors; say "
+        "--release once it is safe");
+  }
+  rig_ = make_hil_rig(scenario_, *world_, line_may_fail());
+  unit_watch_ = std::make_unique<hil_bridge::LineUnitWatch>(rig_->serial(), wanted_parameters(scenario_));
+}
+
+bool Bench::line_may_fail() const {
+  const auto by_event = [](const EventConfig& event) { return event.link || event.bus; };
+  return std::any_of(scenario_.events.begin(), scenario_.events.end(), by_event) ||
+         loaded_.gives("fcu.link_fault") || loaded_.gives("fcu.bus_fault");
+}
+
+hil_bridge::transport::LinkFault& Bench::line_faults() {
+  return rig_ ? *rig_->line_faults() : *line_->faults();
+}
+
+hil_bridge::RcPilot* Bench::pilot() {
+  return rig_ ? rig_->pilot() : &fcu_->pilot();
 }
 
 void Bench::wire_script() {
@@ -88,6 +150,7 @@ Bench::Time Bench::tick() {
   do_what_is_due(lockstep_->now());
   const Time now = lockstep_->tick();
   watch(now);
+  watch_link(now);
   judge_->observe(now);
   if (published_events_ != judge_->events().size()) publish_events(now);
   if (log_) log_->observe(now, lockstep_->stepped());
@@ -114,6 +177,17 @@ void Bench::watch_interlock(Time now) {
   killed_ = killed;
 }
 
+void Bench::watch_link(Time now) {
+  if (rig_ && rig_->motors() != nullptr) {
+    while (const auto event = rig_->motors()->take_event()) {
+      judge_->event(now, "can", std::string(hil_bridge::transport::name_of(event->kind)));
+    }
+  }
+  if ((!rig_ && !line_) || now < next_health_) return;
+  next_health_ = now + kHealthPeriod;
+  link_health_ = (rig_ ? rig_->serial() : line_->serial()).health(now);
+}
+
 void Bench::publish_events(Time now) {
   const std::vector<RunEvent>& events = judge_->events();
   for (; published_events_ < events.size(); ++published_events_) {
@@ -128,6 +202,11 @@ void Bench::publish_events(Time now) {
 }
 
 Verdict Bench::finish(double wall_seconds) {
+  const double lost = rig_ ? to_seconds(rig_->lost()) * scenario_.fcu.time_scale : 0.0;
+  if (lost > kGreatestLoss) {
+    broken_promises_.push_back("this machine was too slow: the run fell " + std::to_string(lost) +
+                               " s behind the unit");
+  }
   if (interrupted_) broken_promises_.emplace_back("the run was interrupted");
   Verdict verdict = judge_->finish({loaded_.name, scenario_.title, scenario_.seed, loaded_.digest},
                                    {broken_promises_, playbook_.gaps(judge_->events())}, wall_seconds);

@@ -12,6 +12,7 @@
 #include "autopilot/autopilot.hpp"
 #include "hil_bridge/executive/guard.hpp"
 #include "hil_bridge/executive/lockstep.hpp"
+#include "hil_bridge/hil_fcu/can_motors.hpp"
 #include "hil_bridge/serial_fcu/virtual_serial.hpp"
 #include "hil_bridge/virtual_fcu/virtual_fcu.hpp"
 #include "scenarios/bench/flight_log.hpp"
@@ -26,6 +27,8 @@
 #include "simulator/world.hpp"
 
 namespace ironbird::scenarios {
+
+class HilRig;
 
 /// How far a run has come.
 struct Progress {
@@ -43,6 +46,7 @@ struct Progress {
 struct BenchOptions {
   std::filesystem::path log_file;                    ///< empty: no log
   std::function<bool(const Progress&)> on_progress;  ///< called every simulated second; false: stop the run
+  bool released = false;  ///< the operator has said so, of a unit at the other end of a line
 };
 
 /// Wires one simulated run and flies it: here autopilot, FCU, world, log and judge meet. A run on a real unit
@@ -72,14 +76,26 @@ class Bench {
 
  private:
   void wire_unit();
+  void wire_line();
+  void wire_desk();
+  void wire_log();
+  /// The line can be made to fail.
+  bool line_may_fail() const;
+  hil_bridge::transport::LinkFault& line_faults();
+  /// Null: one of flesh and blood.
+  hil_bridge::RcPilot* pilot();
+  void ask_for_take_off(Time now);
   void wire_script();
   void do_what_is_due(Time now);
   void perform(const Deed& deed, Time now);
   void perform(const EventConfig& event, Time now);
   void begin_fault(const EventConfig& event, Time now);
+  void begin_link_fault(const EventConfig& event, Time now);
+  void end_link_fault(std::size_t number, Time now);
   void perform(PilotAction action);
   void watch(Time now);
   void watch_interlock(Time now);
+  void watch_link(Time now);
   void publish_events(Time now);
   Verdict finish(double wall_seconds);
 
@@ -87,7 +103,8 @@ class Bench {
   const Scenario& scenario_;
   BenchOptions options_;
   std::unique_ptr<simulator::World> world_;
-  std::unique_ptr<hil_bridge::VirtualFcu> fcu_;
+  std::unique_ptr<hil_bridge::VirtualFcu> fcu_;  // null: the rig has the unit
+  std::unique_ptr<HilRig> rig_;                  // null: no hardware in the loop
   std::unique_ptr<hil_bridge::UnitWatch> unit_watch_;
   std::unique_ptr<hil_bridge::Guard> guard_;
   std::unique_ptr<hil_bridge::VirtualSerialFcu> line_;  // null: called directly
@@ -101,6 +118,11 @@ class Bench {
   TextWatch texts_;
   Playbook playbook_;
   std::map<std::size_t, std::string> running_faults_;  // by number
+  RunningLinkFaults link_faults_;
+  RunningLinkFaults bus_faults_;
+  hil_bridge::LinkHealth link_health_;
+  hil_bridge::CanMotorsStatus no_motors_;
+  Time next_health_{};
   std::vector<std::string> broken_promises_;
   std::size_t published_events_ = 0;
   bool killed_ = false;

@@ -19,16 +19,19 @@ struct Still {
   simulator::Truth truth;
   autopilot::Signals autopilot;
   hil_bridge::Telemetry fcu;
+  hil_bridge::LinkHealth link;
+  hil_bridge::CanMotorsStatus can;
   SignalTable table;
-  explicit Still(std::size_t rotors) { add_signals(table, &truth, autopilot, fcu, rotors); }
+  explicit Still(const Scenario& scenario) {
+    add_signals(table, &truth, autopilot, fcu, scenario.vehicle.rotors.size());
+    add_link_signals(table, scenario, link, can);
+  }
 };
 
 class CheckRules {
  public:
   explicit CheckRules(const LoadedScenario& loaded)
-      : loaded_(loaded),
-        names_(loaded.scenario),
-        still_(std::make_unique<Still>(loaded.scenario.vehicle.rotors.size())) {}
+      : loaded_(loaded), names_(loaded.scenario), still_(std::make_unique<Still>(loaded.scenario)) {}
 
   std::vector<std::string> findings() {
     for (std::size_t i = 0; i < loaded_.scenario.checks.size(); ++i) {
@@ -114,6 +117,15 @@ void add_signals(SignalTable& table, const simulator::Truth* truth, const autopi
                           std::to_string(rotors - 1) + "]";
   if (truth != nullptr) table.shorten("truth.rotor_speed", rotors, has);
   table.shorten("fcu.output_raw.values", rotors, "it drives no rotor: " + has);
+}
+
+void add_link_signals(SignalTable& table, const Scenario& scenario, const hil_bridge::LinkHealth& link,
+                      const hil_bridge::CanMotorsStatus& can) {
+  const FcuConfig& fcu = scenario.fcu;
+  if (fcu.kind == FcuKind::kVirtual) return;
+  table.add("link", link);
+  if (fcu.kind != FcuKind::kHil || fcu.motors == kOutputRaw) return;
+  table.add("can", can);
 }
 
 std::vector<std::string> check_findings(const LoadedScenario& loaded) {

@@ -5,6 +5,7 @@
 
 #include "autopilot/types/flight_status.hpp"
 #include "autopilot/types/state_estimate.hpp"
+#include "hil_bridge/transport/frame_bus.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/requirements/timeline.hpp"
@@ -67,6 +68,12 @@ void EventNames::add_flight(const Scenario& scenario) {
     names_.push_back({"health", std::string(name)});
   for (const std::string_view name : kGroundEvents) names_.push_back({"ground", std::string(name)});
   for (const std::string_view name : kDoubtEvents) names_.push_back({"position", std::string(name)});
+  if (scenario.fcu.kind == FcuKind::kHil && scenario.fcu.motors != kOutputRaw) {
+    for (std::size_t kind = 0; kind < hil_bridge::transport::kBusEventKinds; ++kind) {
+      const auto event = static_cast<hil_bridge::transport::BusEventKind>(kind);
+      names_.push_back({"can", std::string(name_of(event))});
+    }
+  }
   if (!somebody_arms(scenario)) return;
   names_.push_back({"arming", "armed"});
   names_.push_back({"arming", "unarmed"});
@@ -105,7 +112,7 @@ void EventNames::add_own(const Scenario& scenario) {
 
 void EventNames::add_deed(const EventConfig& event) {
   const std::string text = describe_event(event);
-  if (event.fault) {
+  if (event.fault || event.link || event.bus) {
     names_.push_back({"fault", text});
     if (event.lasts > 0.0) names_.push_back({"fault_end", text});
   } else {

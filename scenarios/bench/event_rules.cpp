@@ -13,8 +13,8 @@ namespace {
 using simulator::FaultKind;
 
 /// The keys that say what happens; an event has exactly one of them.
-constexpr const char* kDeeds[] = {"fault",           "pilot",    "request", "add_waypoint",
-                                  "remove_waypoint", "setpoint", "swap",    "set"};
+constexpr const char* kDeeds[] = {"fault",    "pilot", "request", "add_waypoint", "remove_waypoint",
+                                  "setpoint", "swap",  "set",     "link",         "bus"};
 
 /// A key that only some deeds take, and which do.
 struct Detail {
@@ -22,10 +22,10 @@ struct Detail {
   const char* belongs_to;
 };
 constexpr Detail kDetails[] = {
-    {"lasts", "a fault other than battery_charge"},
+    {"lasts", "a fault other than battery_charge, link and bus"},
     {"index", "rotor_efficiency, rotor_loss and add_waypoint"},
     {"magnitude",
-     "rotor_efficiency, baro_bias, battery_charge, payload, request = \"hold\" and pilot = "
+     "rotor_efficiency, baro_bias, battery_charge, payload, link, bus, request = \"hold\" and pilot = "
      "\"move_throttle\""},
     {"vector", "accelerometer_bias, gyro_bias, mag_bias, gnss_jump and wind"},
     {"kind", "swap"},
@@ -61,6 +61,10 @@ Keys keys_of(FaultKind fault) {
 
 Keys keys_of(const EventConfig& event) {
   if (event.fault) return keys_of(*event.fault);
+  if (event.link || event.bus) {
+    if (needs_end(event.link ? *event.link : *event.bus)) return {{"lasts"}, {}};
+    return {{"magnitude"}, {"lasts"}};
+  }
   if (event.pilot == PilotAction::kMoveThrottle) return {{"magnitude"}, {}};
   if (event.request == OperatorWish::kHold) return {{}, {"magnitude"}};
   if (event.add_waypoint) return {{}, {"index"}};
@@ -130,6 +134,7 @@ class EventRules {
     }
     if (event.setpoint) check_setpoint(path, *event.setpoint);
     if (event.fault) check_fault(path, event);
+    if (event.link || event.bus) check_link(path, event);
     check_amount(path, event);
     check_index(path, event);
   }
@@ -150,6 +155,29 @@ class EventRules {
       const bool of_index = text.find("index") != std::string::npos;
       findings_.push_back(path + (of_index ? ".index: " : ".magnitude: ") + text);
     }
+  }
+
+  void check_link(const std::string& path, const EventConfig& event) {
+    const FcuConfig& fcu = scenario_.fcu;
+    if (fcu.kind == FcuKind::kSerial) {
+      findings_.push_back(path + ": the line to a real vehicle is not made to fail; leave the event away");
+    }
+    if (event.link && fcu.kind == FcuKind::kVirtual) {
+      findings_.push_back(path +
+                          ".link: there is no line that could fail; reach the unit over one: fcu.kind = "
+                          "\"virtual_serial\" or \"hil\"");
+    }
+    if (event.bus && fcu.kind != FcuKind::kSerial &&
+        (fcu.kind != FcuKind::kHil || fcu.motors == kOutputRaw)) {
+      findings_.push_back(path +
+                          ".bus: there is no bus that could fail; put the motors on one: fcu.kind = "
+                          "\"hil\", fcu.motors = \"can\"");
+    }
+    const LinkFaultKind kind = event.link ? *event.link : *event.bus;
+    const std::string_view wrong = complaint_about(kind, event.magnitude);
+    if (!wrong.empty()) findings_.push_back(path + ".magnitude: of this fault, " + std::string(wrong));
+    if (needs_end(kind) && loaded_.gives(path + ".lasts") && event.lasts <= 0.0)
+      findings_.push_back(path + ".lasts: must be above 0 s");
   }
 
   void check_amount(const std::string& path, const EventConfig& event) {

@@ -13,7 +13,7 @@ namespace ironbird::scenarios {
 
 /// What an item of a scenario's script stands for.
 struct Deed {
-  enum class Kind { kEvent, kFaultEnd, kArm, kHandOver, kTakeOff, kDisarm, kSnapshot, kEnd };
+  enum class Kind { kEvent, kFaultEnd, kLinkFaultEnd, kArm, kHandOver, kTakeOff, kDisarm, kSnapshot, kEnd };
   Kind kind = Kind::kEvent;
   std::size_t index = 0;  // into the scenario's events or snapshots, or the number of a fault
 };

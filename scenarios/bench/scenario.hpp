@@ -15,6 +15,7 @@
 #include "hil_bridge/interlock/interlock.hpp"
 #include "hil_bridge/transport/link_fault.hpp"
 #include "hil_bridge/virtual_fcu/firmware_host.hpp"
+#include "scenarios/bench/link_faults.hpp"
 #include "scenarios/requirements/check_config.hpp"
 #include "simulator/environment/environment.hpp"
 #include "simulator/fault/fault.hpp"
@@ -44,26 +45,55 @@ enum class FcuKind : std::uint8_t {
   kVirtual,        ///< the virtual one, by function call
   kVirtualSerial,  ///< the virtual one, over a pseudo-terminal, as bytes, in lock-step
   kSerial,         ///< one at the other end of a line, in real time: there is no world but the real one
+  kHil,            ///< one at the other end of a line, whose outputs turn the rotors of a simulated vehicle
 };
 
-constexpr std::array<std::pair<FcuKind, std::string_view>, 3> enumerators(FcuKind) {
+constexpr std::array<std::pair<FcuKind, std::string_view>, 4> enumerators(FcuKind) {
   return {{{FcuKind::kVirtual, "virtual"},
            {FcuKind::kVirtualSerial, "virtual_serial"},
-           {FcuKind::kSerial, "serial"}}};
+           {FcuKind::kSerial, "serial"},
+           {FcuKind::kHil, "hil"}}};
 }
+
+/// The line that leads to a virtual unit on a desk in this process.
+inline constexpr std::string_view kOwnUnit = "virtual";
+// Where the rotors of hardware in the loop get their commands from: the unit's OUTPUT_RAW, a bus in this
+// process, or, with the interface behind it, a bus of this machine.
+inline constexpr std::string_view kOutputRaw = "output_raw";
+inline constexpr std::string_view kOwnBus = "can";
+inline constexpr std::string_view kCanInterface = "can:";
 
 /// The flight-control unit: which one it is, and how the virtual one is set up.
 struct FcuConfig : hil_bridge::VirtualFcuConfig {
   FcuKind kind = FcuKind::kVirtual;
   std::string line;
   int baud = 921600;
+  double time_scale = 1.0;
+  std::string motors{kOutputRaw};
+  bool can_fd = false;
+  double external_attitude = 0.0;
+  hil_bridge::transport::LinkFaultConfig link_fault;
+  hil_bridge::transport::LinkFaultConfig bus_fault;
+
+  /// Hardware in the loop with a virtual unit in this process.
+  bool has_own_unit() const { return line.empty() || line == kOwnUnit; }
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("kind", self.kind, "1", "virtual, virtual_serial, or serial: a real unit");
+    visit("kind", self.kind, "1", "virtual, virtual_serial, serial: a real unit, or hil: a unit on a desk");
     visit("line", self.line, "",
-          "serial: the unit's port, as /dev/serial/by-id/NAME, or udp:HOST:PORT; this side has port 14520");
-    visit("baud", self.baud, "Bd", "serial: rate of the port", 300.0, 4e6);
+          "serial, hil: the unit's port, as /dev/serial/by-id/NAME, or udp:HOST:PORT; this side has port "
+          "14520; "
+          "hil: virtual, for a virtual unit in this process");
+    visit("baud", self.baud, "Bd", "serial, hil: rate of the port", 300.0, 4e6);
+    visit("time_scale", self.time_scale, "1",
+          "hil over a line: seconds of the run in a second of the clock, as the unit's own", 0.001, 1.0);
+    visit("motors", self.motors, "", "hil, what turns the rotors: output_raw, can, or can:INTERFACE");
+    visit("can_fd", self.can_fd, "1", "hil: the motor controllers report in CAN FD frames");
+    visit("external_attitude", self.external_attitude, "Hz",
+          "hil: how often the unit is told the simulated attitude; 0: never", 0.0, 400.0);
+    visit("link_fault", self.link_fault, "", "what goes wrong with the line, where there is one");
+    visit("bus_fault", self.bus_fault, "", "hil: what goes wrong with the bus of the motors");
     VirtualFcuConfig::describe(self, visit);
   }
 };
@@ -201,6 +231,8 @@ struct EventConfig {
   std::string after;
   bool optional = false;
   std::optional<simulator::FaultKind> fault;
+  std::optional<LinkFaultKind> link;
+  std::optional<LinkFaultKind> bus;
   double lasts = 0.0;
   std::optional<int> index;
   double magnitude = 0.0;
@@ -225,6 +257,8 @@ struct EventConfig {
     visit("optional", self.optional, "1",
           "it need not come; without it a run that it does not come in shows nothing");
     visit("fault", self.fault, "1", "a fault begins");
+    visit("link", self.link, "1", "the line to the flight-control unit goes wrong, both ways");
+    visit("bus", self.bus, "1", "the bus of the motors goes wrong, both ways");
     visit("lasts", self.lasts, "s", "how long the fault lasts; 0: to the end", 0.0, 86400.0);
     visit("index", self.index, "1", "of the rotor or waypoint that is meant, from 0", 0.0, 1000.0);
     visit("magnitude", self.magnitude, "SI",

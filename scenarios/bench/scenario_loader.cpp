@@ -5,6 +5,7 @@
 
 #include "scenarios/bench/autopilot_loader.hpp"
 #include "scenarios/bench/fcu_loader.hpp"
+#include "scenarios/bench/hil_rules.hpp"
 #include "scenarios/bench/model_files.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/config/digest.hpp"
@@ -181,6 +182,8 @@ LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides&
   if (findings.empty()) findings = rule_findings(loaded);
   const std::vector<std::string> more = load_autopilot(root, modules, loaded);
   findings.insert(findings.end(), more.begin(), more.end());
+  const std::vector<std::string> loops = loop_findings(loaded);
+  findings.insert(findings.end(), loops.begin(), loops.end());
   if (!findings.empty()) throw ConfigError(findings);
   return loaded;
 }

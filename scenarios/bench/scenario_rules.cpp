@@ -11,6 +11,7 @@
 #include "scenarios/bench/check_rules.hpp"
 #include "scenarios/bench/event_names.hpp"
 #include "scenarios/bench/event_rules.hpp"
+#include "scenarios/bench/hil_rules.hpp"
 #include "scenarios/bench/live_rules.hpp"
 #include "scenarios/bench/model_files.hpp"
 #include "scenarios/config/nearest_name.hpp"
@@ -40,6 +41,7 @@ class Rules {
     check_field();
     check_start();
     check_waypoints();
+    report_all(hil_findings(loaded_));
     check_cameras();
     check_snapshots();
     report_all(event_findings(loaded_));
@@ -215,6 +217,8 @@ std::string picture_event(const std::string& snapshot) {
 std::string describe_event(const EventConfig& event) {
   if (!event.name.empty()) return event.name;
   if (event.fault) return name_of_value(*event.fault);
+  if (event.link) return "link_" + name_of_value(*event.link);
+  if (event.bus) return "bus_" + name_of_value(*event.bus);
   if (event.pilot) return name_of_value(*event.pilot);
   if (event.request) return name_of_value(*event.request);
   if (event.add_waypoint) return "add_waypoint";

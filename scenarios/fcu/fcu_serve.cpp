@@ -2,13 +2,17 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "hil_bridge/executive/real_time_rights.hpp"
 #include "hil_bridge/transport/link_fault.hpp"
 #include "hil_bridge/transport/pseudo_terminal.hpp"
+#include "hil_bridge/transport/socket_can.hpp"
 #include "hil_bridge/transport/udp_socket.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
@@ -26,7 +30,10 @@ namespace {
 
 using hil_bridge::Time;
 using hil_bridge::transport::ByteStream;
+using hil_bridge::transport::LinkError;
 using hil_bridge::transport::PseudoTerminal;
+using hil_bridge::transport::SocketCan;
+using hil_bridge::transport::SocketCanParams;
 using hil_bridge::transport::UdpConfig;
 using hil_bridge::transport::UdpSocket;
 
@@ -41,6 +48,10 @@ struct ServeArguments {
   int udp = 0;
   double duration = 0.0;  // s
   bool idle_pilot = false;
+  std::string can;
+  bool can_fd = false;
+  bool on_desk = false;
+  double time_scale = 1.0;
 };
 
 /// Where others find it, and what to type there.
@@ -68,6 +79,30 @@ Time clock_now() {
   return std::chrono::steady_clock::now().time_since_epoch();
 }
 
+/// The bus of the motors, or null. What is wrong with it is a matter of the machine, not of the command line.
+std::unique_ptr<SocketCan> open_bus(const ServeArguments& arguments) {
+  if (arguments.can.empty()) return nullptr;
+  SocketCanParams params;
+  params.interface = arguments.can;
+  params.fd = arguments.can_fd;
+  try {
+    return std::make_unique<SocketCan>(params, clock_now());
+  } catch (const std::invalid_argument& error) {
+    throw LinkError(error.what());
+  }
+}
+
+/// Says what happens to the bus.
+void tell_events(SocketCan* bus, const std::string& interface) {
+  while (bus != nullptr) {
+    const auto event = bus->take_event();
+    if (!event) return;
+    const std::string_view name = name_of(event->kind);
+    std::fprintf(stderr, "CAN interface %s: %.*s\n", interface.c_str(), static_cast<int>(name.size()),
+                 name.data());
+  }
+}
+
 void sleep_until(Time when) {
   const timespec at{when.count() / 1'000'000'000, when.count() % 1'000'000'000};
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
@@ -87,9 +122,12 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
   LoadedScenario loaded =
       load_scenario(arguments.scenario, {split_settings(arguments.settings), std::nullopt}, modules);
   if (arguments.idle_pilot) loaded.scenario.pilot.automatic = false;
+  if (arguments.on_desk) loaded.scenario.fcu.on_desk = true;
+  const std::unique_ptr<SocketCan> bus = open_bus(arguments);
   const Line line = open_line(arguments);
   hil_bridge::transport::LinkFault spoiled(*line.stream, loaded.scenario.link, loaded.scenario.seed);
-  ServedUnit unit(loaded.scenario, spoiled);
+  ServedUnit unit(loaded.scenario, spoiled, bus.get());
+  const Time period(std::llround(static_cast<double>(unit.period().count()) / arguments.time_scale));
   std::fprintf(stderr, "serving %s; connect with: ironbird fcu info %s; Ctrl-C ends\n",
                loaded.scenario.vehicle_folder.c_str(), line.how_to_reach.c_str());
   // A board has its processor for itself.
@@ -105,7 +143,8 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
     spoiled.advance(unit.now());
     unit.tick();
     spoiled.advance(unit.now());
-    next += unit.period();
+    tell_events(bus.get(), arguments.can);
+    next += period;
     const Time behind = clock_now() - next;
     if (behind > kGivenUp) {
       lost += behind;
@@ -137,6 +176,11 @@ FcuWork declare_fcu_serve(CLI::App& app) {
       ->check(CLI::Range(1, 65535));
   app.add_option("--duration", arguments->duration, "end after so many seconds")
       ->check(CLI::Range(0.1, 86400.0));
+  app.add_option("--can", arguments->can, "its motors are on this CAN interface, as DroneCAN controllers");
+  app.add_flag("--can-fd", arguments->can_fd, "in CAN FD frames");
+  app.add_flag("--on-desk", arguments->on_desk, "its own vehicle stands still whatever its outputs are");
+  app.add_option("--time-scale", arguments->time_scale, "its seconds in a second of the clock")
+      ->check(CLI::Range(0.001, 1.0));
   app.add_flag("--idle-pilot", arguments->idle_pilot,
                "the pilot leaves the switches alone: it is never armed");
   app.footer(
@@ -146,7 +190,9 @@ FcuWork declare_fcu_serve(CLI::App& app) {
       "`pilot.arm_at`.\n"
       "Examples:\n"
       "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --pty /tmp/unit\n"
-      "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --udp 14525");
+      "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --udp 14525\n"
+      "  ironbird fcu serve scenarios/library/paper/three_waypoints.toml --pty /tmp/unit --can vcan0 "
+      "--on-desk");
   return [arguments](const autopilot::Modules& modules) { return serve(*arguments, modules); };
 }
 

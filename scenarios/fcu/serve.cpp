@@ -20,11 +20,14 @@ std::uint8_t system_of(const VirtualFcu& fcu) {
 
 }  // namespace
 
-ServedUnit::ServedUnit(const Scenario& scenario, hil_bridge::transport::ByteStream& line)
+ServedUnit::ServedUnit(const Scenario& scenario, hil_bridge::transport::ByteStream& line,
+                       hil_bridge::transport::FrameBus* bus)
     : scenario_(scenario),
       world_(make_world(scenario)),
       fcu_(scenario.fcu, *world_),
-      served_(fcu_, line, system_of(fcu_)) {}
+      served_(fcu_, line, system_of(fcu_)) {
+  if (bus != nullptr) motors_.emplace(static_cast<int>(scenario.vehicle.rotors.size()), *bus, Time{0});
+}
 
 void ServedUnit::tick() {
   now_ += scenario_.fcu.tick;
@@ -32,6 +35,7 @@ void ServedUnit::tick() {
   if (!since_ && served_.frames_taken() > 0) since_ = now_;
   if (scenario_.pilot.automatic && since_) act_as_pilot();
   fcu_.advance(now_);
+  if (motors_) motors_->step(fcu_, now_);
   served_.give();
   const std::optional<std::string_view> event = ground_.observe(world_->truth());
   if (event && *event != std::string_view("lifted_off")) down_ = now_;

@@ -2,8 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "hil_bridge/transport/byte_stream.hpp"
+#include "hil_bridge/transport/frame_bus.hpp"
+#include "hil_bridge/virtual_fcu/can_outputs.hpp"
 #include "hil_bridge/virtual_fcu/served_fcu.hpp"
 #include "hil_bridge/virtual_fcu/virtual_fcu.hpp"
 #include "scenarios/bench/ground_watch.hpp"
@@ -18,8 +21,10 @@ namespace ironbird::scenarios {
 class ServedUnit {
  public:
   /// @param line  outlives this
+  /// @param bus   on which its motors are, beside OUTPUT_RAW; null: none; outlives this
   /// @throws std::invalid_argument naming key, value and bound
-  ServedUnit(const Scenario& scenario, hil_bridge::transport::ByteStream& line);
+  ServedUnit(const Scenario& scenario, hil_bridge::transport::ByteStream& line,
+             hil_bridge::transport::FrameBus* bus = nullptr);
 
   /// Lets one tick pass: takes what came, steps world and firmware, gives what is said.
   void tick();
@@ -37,6 +42,7 @@ class ServedUnit {
   std::unique_ptr<simulator::World> world_;
   hil_bridge::VirtualFcu fcu_;
   hil_bridge::ServedFcu served_;
+  std::optional<hil_bridge::CanOutputs> motors_;
   GroundWatch ground_;
   hil_bridge::Time now_{};
   std::optional<hil_bridge::Time> since_;  // somebody is there

@@ -46,7 +46,7 @@ TEST(VirtualSerialFcuTest, SaysAndDoesTheSameAsTheUnitWithoutALine) {
   const auto direct = said(direct_unit, direct_unit);
   DeskUnit served_unit(config);
   SimulatedUnitGate gate;
-  VirtualSerialFcu line(served_unit, 1, &gate);
+  VirtualSerialFcu line(served_unit, {}, &gate);
   const auto served = said(line, served_unit);
   ASSERT_EQ(direct.size(), served.size());
   for (std::size_t k = 0; k < direct.size(); ++k) {

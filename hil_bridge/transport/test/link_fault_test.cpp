@@ -165,6 +165,68 @@ TEST(LinkFaultTest, IsCutAndComesBackWithNothingOfBefore) {
   EXPECT_TRUE(line.arrived(milliseconds(60)).empty());
 }
 
+TEST(LinkFaultTest, StaysCutForAsLongAsItIsTold) {
+  FaultyLine line({});
+  line.send({1}, milliseconds(1));
+  line.fault().hang_up(milliseconds(500));
+  line.pair().far().write(Bytes{9});
+  line.fault().advance(milliseconds(499));
+  EXPECT_FALSE(line.fault().reopen());
+  line.fault().advance(milliseconds(500));
+  EXPECT_TRUE(line.fault().reopen());
+  Bytes back(1);
+  EXPECT_EQ(line.fault().read(back), 0U) << "what came while it was cut is gone";
+}
+
+TEST(LinkFaultTest, StandsStillBothWaysWhenToldAndLosesNothing) {
+  FaultyLine line({});
+  line.fault().advance(milliseconds(1));
+  line.fault().stand_still(milliseconds(50));
+  line.fault().write(Bytes{1});
+  line.pair().far().write(Bytes{9});
+  EXPECT_TRUE(line.arrived(milliseconds(49)).empty());
+  Bytes back(1);
+  EXPECT_EQ(line.fault().read(back), 0U);
+  EXPECT_EQ(line.arrived(milliseconds(50)), Bytes{1});
+  EXPECT_EQ(line.fault().read(back), 1U);
+}
+
+TEST(LinkFaultTest, TakesOtherFaultsInTheMiddle) {
+  FaultyLine line({});
+  line.fault().set({{.drop = 1.0}, {}});
+  line.send({1}, milliseconds(1));
+  line.fault().set({});
+  line.send({2}, milliseconds(2));
+  EXPECT_EQ(line.arrived(milliseconds(3)), Bytes{2});
+  EXPECT_THROW(line.fault().set({{.drop = -1.0}, {}}), std::invalid_argument);
+}
+
+/// Pieces of three bytes.
+std::size_t three(std::span<const std::uint8_t> bytes) {
+  return bytes.size() < 3 ? 0 : 3;
+}
+
+TEST(LinkFaultTest, LosesWholePiecesOfWhatItReadsHoweverTheyCome) {
+  Bytes heard[2];
+  for (const std::size_t at_once : {1U, 7U}) {
+    StreamPair pair;
+    LinkFault fault(pair.near(), {{}, {.drop = 0.5}}, 1, three);
+    Bytes all(3000);
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<std::uint8_t>(k / 3);
+    for (std::size_t k = 0; k < all.size(); k += at_once) {
+      pair.far().write(std::span(all).subspan(k, std::min(at_once, all.size() - k)));
+      fault.advance(milliseconds(k));
+    }
+    Bytes& out = heard[at_once == 1 ? 0 : 1];
+    out.resize(all.size());
+    out.resize(fault.read(out));
+  }
+  EXPECT_EQ(heard[0], heard[1]);
+  ASSERT_GT(heard[0].size(), 1200U);
+  ASSERT_LT(heard[0].size(), 1800U);
+  for (std::size_t k = 0; k < heard[0].size(); k += 3) EXPECT_EQ(heard[0][k], heard[0][k + 2]);
+}
+
 TEST(LinkFaultTest, HasTheSameFaultsForTheSameSeedAndOthersForAnother) {
   const DirectionFaults faults{.drop = 0.1, .corrupt = 0.01, .insert = 0.1, .duplicate = 0.1};
   std::map<std::uint64_t, Bytes> runs[2];

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "autopilot/modules.hpp"
 #include "scenarios/bench/bench.hpp"
@@ -24,8 +26,10 @@ class SameBytesTest : public ::testing::Test {
   ~SameBytesTest() override { std::filesystem::remove_all(folder_); }
 
   /// Flies the first 12 s, take-off included. @return the log's bytes
-  std::string fly(std::uint64_t seed, int seconds_until_stop = 1000, const char* kind = "virtual") {
-    const Overrides overrides{{{"duration", "12"}, {"fcu.kind", '"' + std::string(kind) + '"'}}, seed};
+  std::string fly(std::uint64_t seed, int seconds_until_stop = 1000, const char* kind = "virtual",
+                  const std::vector<std::pair<std::string, std::string>>& more = {}) {
+    Overrides overrides{{{"duration", "12"}, {"fcu.kind", '"' + std::string(kind) + '"'}}, seed};
+    overrides.settings.insert(overrides.settings.end(), more.begin(), more.end());
     const LoadedScenario loaded = load_scenario(scenario_, overrides, modules_);
     BenchOptions options;
     options.log_file = log_;
@@ -83,6 +87,28 @@ TEST_F(SameBytesTest, OverAPseudoTerminalEveryMessageIsTheSame) {
     ASSERT_TRUE(one.channel == other.channel && one.log_time == other.log_time &&
                 std::ranges::equal(one.data, other.data))
         << called.channels().at(one.channel).topic << " at " << one.log_time << " ns";
+  }
+}
+
+TEST_F(SameBytesTest, TheSameSeedGivesTheSameFaultsOfTheLine) {
+  constexpr int kWholeRun = 1000;
+  const std::vector<std::pair<std::string, std::string>> faults = {
+      {"fcu.link_fault.outgoing", "{ drop = 0.1, corrupt = 0.001, reorder = 0.05, latency = \"3 ms\" }"},
+      {"fcu.link_fault.incoming",
+       "{ drop = 0.1, insert = 0.05, duplicate = 0.05, jitter = \"2 ms\", byte_rate = 92160, hang_up = 1e-4 "
+       "}"}};
+  const std::string first = fly(3, kWholeRun, "virtual_serial", faults);
+  EXPECT_GT(first.size(), 100000U);
+  EXPECT_TRUE(first == fly(3, kWholeRun, "virtual_serial", faults));
+  EXPECT_FALSE(first == fly(4, kWholeRun, "virtual_serial", faults));
+}
+
+TEST_F(SameBytesTest, TheSameSeedGivesTheSameBytesWithAUnitOnTheDesk) {
+  constexpr int kWholeRun = 1000;
+  for (const char* motors : {"\"output_raw\"", "\"can\""}) {
+    const std::string first = fly(3, kWholeRun, "hil", {{"fcu.motors", motors}});
+    EXPECT_GT(first.size(), 100000U);
+    EXPECT_TRUE(first == fly(3, kWholeRun, "hil", {{"fcu.motors", motors}})) << motors;
   }
 }
 

@@ -1,5 +1,6 @@
 // The program seen from outside: one process is a unit, others talk to it.
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -81,6 +82,19 @@ TEST_F(FcuProgramTest, SaysWhatIsWrongWithALine) {
   outcome = run("fcu params --port /dev/null bend X");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("there are: get, set, save, load, diff, verify"));
+}
+
+TEST_F(FcuProgramTest, SaysInOneLineWhatIsWrongWithACanInterface) {
+  const std::string scenario =
+      std::string(IRONBIRD_SOURCE_DIR) + "/scenarios/library/paper/three_waypoints.toml";
+  const Outcome outcome =
+      run("fcu serve " + scenario + " --pty " + link_ + " --can nocan0 --on-desk --duration 1");
+  EXPECT_EQ(outcome.code, 3);
+  // A kernel without CAN says something else than one with it.
+  EXPECT_THAT(outcome.text,
+              testing::AllOf(HasSubstr("CAN interface nocan0: "),
+                             testing::AnyOf(HasSubstr("modprobe can_raw"), HasSubstr("not found"))));
+  EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1);
 }
 
 }  // namespace

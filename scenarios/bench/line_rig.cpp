@@ -1,0 +1,130 @@
+#include <charconv>
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "hil_bridge/executive/paced_fcu.hpp"
+#include "hil_bridge/rosflight/frame_codec.hpp"
+#include "hil_bridge/transport/serial_port.hpp"
+#include "hil_bridge/transport/socket_can.hpp"
+#include "hil_bridge/transport/udp_socket.hpp"
+#include "scenarios/bench/hil_rig.hpp"
+#include "scenarios/bench/make_guard.hpp"
+
+// A unit at the other end of a line, and the bus of its motors on an interface of this machine.
+
+namespace ironbird::scenarios {
+
+namespace {
+
+using hil_bridge::Time;
+using namespace hil_bridge::transport;
+
+constexpr std::string_view kUdp = "udp:";
+
+/// @throws std::invalid_argument for a text that is no HOST:PORT
+UdpConfig udp_config(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  UdpConfig config;
+  config.host = text.substr(0, colon);
+  const std::string port = colon == std::string::npos ? "" : text.substr(colon + 1);
+  const auto read = std::from_chars(port.data(), port.data() + port.size(), config.port);
+  constexpr int kGreatestPort = 65535;
+  if (read.ec != std::errc() || read.ptr != port.data() + port.size() || config.port < 1 ||
+      config.port > kGreatestPort || config.host.empty()) {
+    throw std::invalid_argument("fcu.line = udp:" + text + ": must be udp:HOST:PORT");
+  }
+  return config;
+}
+
+std::unique_ptr<ByteStream> open_line(const FcuConfig& fcu) {
+  if (fcu.line.starts_with(kUdp)) {
+    auto socket = std::make_unique<UdpSocket>(udp_config(fcu.line.substr(kUdp.size())));
+    socket->open();
+    return socket;
+  }
+  auto port = std::make_unique<SerialPort>(SerialPortConfig{fcu.line, fcu.baud});
+  port->open();
+  return port;
+}
+
+std::unique_ptr<SocketCan> open_bus(const FcuConfig& fcu) {
+  SocketCanParams params;
+  params.interface = fcu.motors.substr(kCanInterface.size());
+  params.fd = fcu.can_fd;
+  try {
+    return std::make_unique<SocketCan>(params, std::chrono::steady_clock::now().time_since_epoch());
+  } catch (const std::invalid_argument& error) {
+    throw LinkError(error.what());
+  }
+}
+
+/// The unit, and its line's faults at their time.
+class LineEnd final : public hil_bridge::Fcu {
+ public:
+  LineEnd(hil_bridge::SerialFcu& serial, LinkFault* faults) : serial_(serial), faults_(faults) {}
+  void advance(Time now) override {
+    if (faults_ != nullptr) faults_->advance(now);
+    serial_.advance(now);
+  }
+  void receive(std::vector<hil_bridge::Arrival>& out) override { serial_.receive(out); }
+  void send(const hil_bridge::rosflight::Message& message) override { serial_.send(message); }
+
+ private:
+  hil_bridge::SerialFcu& serial_;
+  LinkFault* faults_;
+};
+
+class LineRig final : public HilRig {
+ public:
+  LineRig(const Scenario& scenario, simulator::World& world, bool faults)
+      : line_(open_line(scenario.fcu)),
+        line_fault_(faults ? std::make_unique<LinkFault>(*line_, scenario.fcu.link_fault, scenario.seed,
+                                                         &hil_bridge::rosflight::piece_length)
+                           : nullptr),
+        serial_(line_fault_ ? static_cast<ByteStream&>(*line_fault_) : *line_,
+                {.system = static_cast<std::uint8_t>(unit_parameter(scenario, "SYS_ID"))}),
+        end_(serial_, line_fault_.get()) {
+    if (scenario.fcu.motors != kOutputRaw) wire_bus(scenario, faults);
+    hil_.emplace(scenario.fcu, world, end_, motors(), scenario.fcu.external_attitude);
+    paced_.emplace(*hil_, scenario.fcu.time_scale);
+  }
+
+  hil_bridge::Fcu& fcu() override { return *paced_; }
+  const hil_bridge::SerialFcu& serial() const override { return serial_; }
+  void set_gate(hil_bridge::Gate& gate) override { serial_.set_gate(gate); }
+  hil_bridge::RcPilot* pilot() override { return nullptr; }
+  LinkFault* line_faults() override { return line_fault_.get(); }
+  BusFault* bus_faults() override { return bus_fault_ ? &*bus_fault_ : nullptr; }
+  hil_bridge::CanMotors* motors() override { return motors_ ? &*motors_ : nullptr; }
+  Time lost() const override { return paced_->lost(); }
+
+ private:
+  void wire_bus(const Scenario& scenario, bool faults) {
+    bus_ = open_bus(scenario.fcu);
+    if (faults) bus_fault_.emplace(*bus_, scenario.fcu.bus_fault, scenario.seed);
+    FrameBus& end = bus_fault_ ? static_cast<FrameBus&>(*bus_fault_) : *bus_;
+    motors_.emplace(played_escs(scenario), scenario.vehicle.rotor, end, Time{0}, bus_faults());
+  }
+
+  std::unique_ptr<ByteStream> line_;
+  std::unique_ptr<LinkFault> line_fault_;
+  hil_bridge::SerialFcu serial_;
+  LineEnd end_;
+  std::unique_ptr<SocketCan> bus_;
+  std::optional<BusFault> bus_fault_;
+  std::optional<hil_bridge::CanMotors> motors_;
+  std::optional<hil_bridge::HilFcu> hil_;
+  std::optional<hil_bridge::PacedFcu> paced_;
+};
+
+}  // namespace
+
+std::unique_ptr<HilRig> make_line_rig(const Scenario& scenario, simulator::World& world, bool faults) {
+  return std::make_unique<LineRig>(scenario, world, faults);
+}
+
+}  // namespace ironbird::scenarios
