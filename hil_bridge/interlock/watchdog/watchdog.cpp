@@ -1,5 +1,6 @@
 #include "hil_bridge/interlock/watchdog/watchdog.hpp"
 
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
@@ -24,7 +25,8 @@ namespace {
 
 using transport::FileDescriptor;
 
-constexpr int kWakingPatience = 2000;  // ms
+constexpr int kWakingPatience = 2000;   // ms
+constexpr int kPartingPatience = 1000;  // ms
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::runtime_error("the watchdog cannot be started: " + what);
@@ -127,12 +129,22 @@ void Watchdog::leave() {
   dismiss(kLeave);
 }
 
+/// Waits until it has ended, and makes it end when it is not able to.
+void Watchdog::see_off() {
+  int status = 0;
+  for (int k = 0; k < kPartingPatience; ++k) {
+    if (waitpid(process_, &status, WNOHANG) != 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  kill(process_, SIGKILL);
+  waitpid(process_, &status, 0);
+}
+
 void Watchdog::dismiss(char word) {
   if (process_ < 0) return;
   (void)!send(socket_.number(), &word, 1, MSG_NOSIGNAL);
   // After a failure it goes on by itself, for as long as its zeros last.
-  int status = 0;
-  if (word == kLeave) waitpid(process_, &status, 0);
+  if (word == kLeave) see_off();
   process_ = -1;
   socket_.close();
 }

@@ -104,6 +104,7 @@ class Watchdog {
   void start(const WatchdogConfig& config);
   void wait_until_awake();
   void dismiss(char word);
+  void see_off();
 
   SharedBeats* shared_ = nullptr;
   std::vector<Pulse> pulses_;

@@ -165,9 +165,9 @@ TEST_F(WatchdogTest, IsMissedByTheBenchWhenItIsStopped) {
   kill(bench_->watchdog(), SIGSTOP);
   unit_.until(milliseconds(500), [&] { return unit_.motor() < kBenchsMotors - kClose; });
   EXPECT_NEAR(unit_.motor(), kPilotsMotors, kClose);
-  kill(bench_->watchdog(), SIGCONT);  // for which its bench waits, to take leave
   unit_.until(kPatience, [&] { return bench_->ended().has_value(); });
   EXPECT_EQ(bench_->said(), "the watchdog is gone");
+  EXPECT_FALSE(bench_->watchdog_lives());
 }
 
 TEST_F(WatchdogTest, IsNotReachedByWhatEndsTheBench) {
