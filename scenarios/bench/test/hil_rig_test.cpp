@@ -21,7 +21,7 @@ using testing::HasSubstr;
 class HilRigTest : public testing::Test {
  protected:
   HilRigTest() {
-    const std::string file = std::string(IRONBIRD_SOURCE_DIR) + "/scenarios/library/hardware/hil_can.toml";
+    const std::string file = IRONBIRD_SOURCE_DIR "/scenarios/library/hardware/hil_can.toml";
     scenario_ = load_scenario(file, {}, autopilot::standard_modules()).scenario;
     world_ = make_world(scenario_);
   }
