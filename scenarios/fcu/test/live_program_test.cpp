@@ -166,6 +166,15 @@ TEST_F(LiveProgramTest, EndsWithCtrlCAndLeavesALogThatOpens) {
   EXPECT_EQ(log.topic("/truth/state"), nullptr);
 }
 
+TEST_F(LiveProgramTest, IsEndedByItsWatchdogWhenItIsStopped) {
+  const Process unit = serve("60");
+  await_unit();
+  Process run = fly({"--release", "--patience", "60"});
+  ASSERT_TRUE(run.says_within("interlock released", std::chrono::seconds(60))) << run.text();
+  run.send(SIGSTOP);
+  EXPECT_EQ(run.wait(), -1) << "ended by a signal, not continued";
+}
+
 /// Flies until the second waypoint and looks at how that went.
 class LiveFlightTest : public LiveProgramTest {
  protected:
