@@ -11,7 +11,7 @@ using std::chrono::microseconds;
 
 constexpr Time kSlowerThanLeast = microseconds(500);     // of a round trip, still believed
 constexpr Time kCatchUp = std::chrono::seconds(1);       // in which the line used reaches the fitted one
-constexpr Time kShortestSpan = std::chrono::seconds(2);  // of samples that tell a drift,
+constexpr Time kShortestSpan = std::chrono::seconds(4);  // of samples that tell a drift,
 constexpr double kFewest = 8.0;                          // and how many it takes
 constexpr double kGreatestDrift = 5e-4;                  // s/s; crystals are better than 1e-4
 

@@ -236,7 +236,9 @@ void LiveBench::close_log(std::vector<std::string>& broken) {
 }
 
 void LiveBench::close_gate() {
-  guard_->close(realtime_->now());
+  const Time now = realtime_->now();
+  guard_->close(now);
+  if (const auto last = guard_->unasked(now)) fcu_->send(*last);  // on the bench: the motors idle at once
 }
 
 Verdict LiveBench::finish(double wall_seconds) {

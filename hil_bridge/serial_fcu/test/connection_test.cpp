@@ -148,7 +148,7 @@ TEST(ConnectionTest, SendsHeartbeatsAndTimeExchangesAtTheirRates) {
     });
   }
   EXPECT_EQ(heartbeats, 10);
-  EXPECT_EQ(exchanges, 100);
+  EXPECT_EQ(exchanges, 103) << "each 97.3 ms, seen with a millisecond each";
 }
 
 }  // namespace
