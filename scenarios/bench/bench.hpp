@@ -92,6 +92,7 @@ class Bench {
   void begin_fault(const EventConfig& event, Time now);
   void begin_link_fault(const EventConfig& event, Time now);
   void end_link_fault(std::size_t number, Time now);
+  void release_gate();
   void perform(PilotAction action);
   void watch(Time now);
   void watch_interlock(Time now);

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "hil_bridge/interlock/interlock_state.hpp"
 #include "scenarios/bench/bench.hpp"
 #include "scenarios/bench/hil_rig.hpp"
 #include "scenarios/bench/run_time.hpp"
@@ -98,8 +99,18 @@ void Bench::ask_for_take_off(Time now) {
   }
 }
 
+/// At once, and not with the next tick: in that the unit may be armed already, and an armed unit is not
+/// released.
+void Bench::release_gate() {
+  const Time now = lockstep_->now();
+  guard_->want({.release = true});
+  const auto state = guard_->step(autopilot_->signals().estimate, /*bench_in_time=*/true, now).state;
+  if (state == hil_bridge::InterlockState::kReleased || state == hil_bridge::InterlockState::kLive) return;
+  judge_->event(now, "interlock", "not released: " + what_is_missing(guard_->inputs()));
+}
+
 void Bench::perform(PilotAction action) {
-  if (action == PilotAction::kArm) guard_->want({.release = true});
+  if (action == PilotAction::kArm) release_gate();
   if (action == PilotAction::kDisarm) guard_->want({});
   if (pilot() == nullptr) return;
   hil_bridge::RcPilot& hands = *pilot();
