@@ -19,7 +19,9 @@ std::optional<std::string_view> FeltGround::observe(const autopilot::Signals& si
     felt_since_.reset();
     return "lifted_off";
   }
-  const bool rests = !flies && signals.flight.cause == autopilot::PhaseCause::kRestsWithPilot;
+  // Who feels the ground and is disarmed has landed, however soon the pilot did it.
+  const bool rests =
+      !flies && (felt_since_ || signals.flight.cause == autopilot::PhaseCause::kRestsWithPilot);
   if (!memory.on_ground) felt_since_.reset();
   if (memory.on_ground && !felt_since_) felt_since_ = signals.estimate.stamp;
   const bool felt = felt_since_ && signals.estimate.stamp - *felt_since_ >= kRest;

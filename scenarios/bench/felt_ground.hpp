@@ -12,7 +12,8 @@ namespace ironbird::scenarios {
 class FeltGround {
  public:
   /// @return "lifted_off" when the vehicle has left the ground by half a metre, "landed" when the autopilot
-  /// has felt the ground for half a second since then, or lay still while the pilot had the vehicle
+  /// has felt the ground for half a second since then or until it was disarmed, or lay still while
+  /// the pilot had the vehicle
   std::optional<std::string_view> observe(const autopilot::Signals& signals);
 
  private:
