@@ -32,39 +32,38 @@ class ConditionAssertion final : public Assertion {
   std::optional<double> broken_at_;
 };
 
-/// order_of_events: each event once more after the one before, all inside the window; an event serves once.
-/// The margin is the least time between two.
-class OrderOfEvents final : public Assertion {
+/// Looks at events by their names, and knows where its window began and ended.
+class EventsInWindow : public Assertion {
  public:
-  explicit OrderOfEvents(std::vector<std::string> names) : names_(std::move(names)) {}
   void sample(double time) override {
     if (!from_) from_ = time;
     until_ = time;
   }
-  void judge(const RunFacts& facts, CheckResult& result) const override;
 
- private:
+ protected:
+  explicit EventsInWindow(std::vector<std::string> names) : names_(std::move(names)) {}
+
   std::vector<std::string> names_;
   std::optional<double> from_;
   double until_ = 0.0;
+};
 
+/// order_of_events: each event once more after the one before, all inside the window; an event serves once.
+/// The margin is the least time between two.
+class OrderOfEvents final : public EventsInWindow {
+ public:
+  explicit OrderOfEvents(std::vector<std::string> names) : EventsInWindow(std::move(names)) {}
+  void judge(const RunFacts& facts, CheckResult& result) const override;
+
+ private:
   void fail(const Timeline& timeline, std::size_t name, double previous, CheckResult& result) const;
 };
 
 /// none_of_events: no event of these names inside the window. It has no margin.
-class NoneOfEvents final : public Assertion {
+class NoneOfEvents final : public EventsInWindow {
  public:
-  explicit NoneOfEvents(std::vector<std::string> names) : names_(std::move(names)) {}
-  void sample(double time) override {
-    if (!from_) from_ = time;
-    until_ = time;
-  }
+  explicit NoneOfEvents(std::vector<std::string> names) : EventsInWindow(std::move(names)) {}
   void judge(const RunFacts& facts, CheckResult& result) const override;
-
- private:
-  std::vector<std::string> names_;
-  std::optional<double> from_;
-  double until_ = 0.0;
 };
 
 /// metric_below and metric_above.

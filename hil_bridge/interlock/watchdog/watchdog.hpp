@@ -50,7 +50,7 @@ struct SharedBeats;
 class Pulse {
  public:
   void beat() { cell_->store(++count_, std::memory_order_relaxed); }
-  /// The thread has no more to do, for now or for good.
+  /// From here on the thread may be silent, until it beats again.
   void rest() { cell_->store(0, std::memory_order_relaxed); }
 
  private:

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
@@ -71,6 +72,16 @@ class FcuProgramTest : public testing::Test {
   }
   std::string fcu(const std::string& words) const {
     return "fcu " + words + " --port " + link_ + " --patience 30";
+  }
+  /// A unit whose pilot arms as soon as somebody is there. A fatal failure when it does not.
+  void wait_until_armed() const {
+    bool armed = false;
+    for (int k = 0; k < 10 && !armed; ++k) {
+      const Outcome seen = run(fcu("info --json"));
+      ASSERT_EQ(seen.code, 0) << seen.text;
+      armed = nlohmann::json::parse(seen.text)["armed"];
+    }
+    ASSERT_TRUE(armed);
   }
 
   const fs::path folder_ =

@@ -114,13 +114,7 @@ TEST_F(FcuProgramTest, CalibratesTheImuAndTellsTheResult) {
 
 TEST_F(FcuProgramTest, CalibratesNothingInAnArmedUnit) {
   const Server server(link_, "pilot.arm_at=\"0 s\"");
-  bool armed = false;
-  for (int k = 0; k < 10 && !armed; ++k) {
-    const Outcome seen = run(fcu("info --json"));
-    ASSERT_EQ(seen.code, 0) << seen.text;
-    armed = nlohmann::json::parse(seen.text)["armed"];
-  }
-  ASSERT_TRUE(armed);
+  ASSERT_NO_FATAL_FAILURE(wait_until_armed());
   const Outcome outcome = run(fcu("calibrate gyro"));
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.text, HasSubstr("does not report that it is disarmed; nothing was ordered"));
