@@ -17,9 +17,6 @@ target_include_directories(ironbird_options INTERFACE ${PROJECT_SOURCE_DIR})
 # Eigen's vectorised sums would otherwise depend on the optimisation level's choice of alignment.
 target_compile_definitions(ironbird_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MPL2_ONLY)
 
-# Of a build of fuzz targets, the rooms that have a drawer of them.
-set(fuzz_options -O1 -g1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined)
-
 # IRONBIRD_PRECOMPILED_HEADERS names whose foreign headers (Eigen, standard library, GoogleTest) are read once a build
 # instead of once a file: `tests`, `libraries`. Where neither is named a file that forgot an include is found.
 function(ironbird_precompiled whose)
@@ -35,9 +32,7 @@ function(ironbird_precompiled whose)
   target_precompile_headers(${target} PRIVATE ${arg_HEADERS})
 endfunction()
 function(ironbird_reuse_headers target whose)
-  if(IRONBIRD_FUZZERS AND EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz)
-    target_compile_options(${target} PRIVATE ${fuzz_options})  # with which those headers were not compiled
-  elseif(whose IN_LIST IRONBIRD_PRECOMPILED_HEADERS)
+  if(whose IN_LIST IRONBIRD_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} REUSE_FROM ironbird_headers_of_${whose})
     # GCC 12 finds fault with std::string's own operator+ (its bug 105651) and says so where it is precompiled.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
@@ -88,7 +83,7 @@ function(ironbird_test)
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()
-  if(slow IN_LIST arg_LABELS AND NOT IRONBIRD_SLOW_TESTS)
+  if(IRONBIRD_UNIT_TESTS_ONLY AND NOT unit IN_LIST arg_LABELS)
     return()
   endif()
   if(NOT arg_TIMEOUT)
@@ -120,7 +115,7 @@ function(ironbird_benchmark)
 endfunction()
 
 # ironbird_fuzz(NAME stream_decoder SOURCES fuzz/stream_decoder_fuzz.cpp LINKS ironbird::rosflight) makes the program
-# build/fuzz/targets/NAME, which defines ironbird::fuzzing::check. Its corpus is fuzz/corpus/NAME beside it.
+# build/sanitised/targets/NAME, which defines ironbird::fuzzing::check. Its corpus is fuzz/corpus/NAME beside it.
 function(ironbird_fuzz)
   if(NOT IRONBIRD_FUZZERS)
     return()
@@ -129,8 +124,7 @@ function(ironbird_fuzz)
   set(target ${arg_NAME}_fuzz)
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ironbird_options ironbird_fuzzing ${arg_LINKS})
-  target_compile_options(${target} PRIVATE ${fuzz_options})
-  target_link_options(${target} PRIVATE -fsanitize=fuzzer,address,undefined)
+  target_link_options(${target} PRIVATE -fsanitize=fuzzer)
   target_compile_definitions(${target} PRIVATE IRONBIRD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${arg_NAME} RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/targets)
   add_dependencies(ironbird_fuzzers ${target})

@@ -190,8 +190,8 @@ TEST(PhaseTableTest, HasACaseForEachRowFromEachPhaseThatTheRowStartsIn) {
   for (const PhaseRow& row : phase_table::kRows) {
     for (const auto& [phase, name] : enumerators(FlightPhase{})) {
       if (!row.from.contains(phase)) continue;
-      EXPECT_TRUE(
-          std::ranges::any_of(kCases, [&](const Case& c) { return c.from == phase && c.row == row.name; }))
+      EXPECT_TRUE(std::ranges::any_of(
+          kCases, [&, phase = phase](const Case& c) { return c.from == phase && c.row == row.name; }))
           << row.name << " from " << name;
     }
   }

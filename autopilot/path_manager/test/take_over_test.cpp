@@ -68,11 +68,11 @@ struct Swap {
 class TakeOverTest : public ::testing::TestWithParam<Swap> {};
 
 TEST_P(TakeOverTest, GoesOnWithPositionVelocityAndAccelerationWheneverItComes) {
+  const std::unique_ptr<PathManager> first = make(GetParam().from_curves);
+  PerfectFlight before(*first);
+  before.set(mission());
   for (double at = 0.1; at < 45.0; at += 0.1) {
-    const std::unique_ptr<PathManager> first = make(GetParam().from_curves);
-    PerfectFlight before(*first);
-    before.set(mission());
-    before.fly(at);
+    before.fly(0.1);
     Signals signals;
     signals.route = before.route;
     signals.estimate = before.estimate;
@@ -93,9 +93,18 @@ TEST_P(TakeOverTest, GoesOnWithPositionVelocityAndAccelerationWheneverItComes) {
   }
 }
 
-TEST_P(TakeOverTest, BrakesWithoutAJumpWheneverAHoldIsAskedFor) {
-  for (double at = 0.1; at < 45.0; at += 0.1) {
-    const std::unique_ptr<PathManager> manager = make(GetParam().to_curves);
+INSTANTIATE_TEST_SUITE_P(Managers, TakeOverTest,
+                         ::testing::Values(Swap{"LegsAfterLegs", false, false},
+                                           Swap{"CurvesAfterLegs", false, true},
+                                           Swap{"LegsAfterCurves", true, false},
+                                           Swap{"CurvesAfterCurves", true, true}),
+                         [](const auto& case_) { return case_.param.name; });
+
+class HoldTest : public ::testing::TestWithParam<bool> {};
+
+TEST_P(HoldTest, BrakesWithoutAJumpWheneverItIsAskedFor) {
+  for (double at = 0.1; at < 45.0; at += 0.3) {
+    const std::unique_ptr<PathManager> manager = make(GetParam());
     PerfectFlight flight(*manager);
     flight.set(mission());
     flight.fly(at);
@@ -110,12 +119,8 @@ TEST_P(TakeOverTest, BrakesWithoutAJumpWheneverAHoldIsAskedFor) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Managers, TakeOverTest,
-                         ::testing::Values(Swap{"LegsAfterLegs", false, false},
-                                           Swap{"CurvesAfterLegs", false, true},
-                                           Swap{"LegsAfterCurves", true, false},
-                                           Swap{"CurvesAfterCurves", true, true}),
-                         [](const auto& swap) { return swap.param.name; });
+INSTANTIATE_TEST_SUITE_P(Managers, HoldTest, ::testing::Values(false, true),
+                         [](const auto& curves) { return curves.param ? "Curves" : "Legs"; });
 
 TEST(BrakeTest, ExceedsNeitherTheLimitNorWhatItBeganWith) {
   const MotionLimits limits;

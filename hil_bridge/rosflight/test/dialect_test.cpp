@@ -80,7 +80,6 @@ TEST(DialectTest, KnowsThePlaceOfEachField) {
 
 /// Described in an order that is not that of the wire.
 struct Mixed {
-  static constexpr const char* kName = "MIXED";
   std::uint8_t small{};
   std::array<std::uint16_t, 3> several{};
   double large{};

@@ -12,10 +12,10 @@ namespace {
 using namespace rosflight;
 
 ParamSet set_integer(std::string_view name, std::int32_t value) {
-  return {bits_of(value), 1, 0, name_field(name), 6};
+  return {{bits_of(value)}, 1, 0, name_field(name), 6};
 }
 ParamSet set_real(std::string_view name, float value) {
-  return {bits_of(value), 1, 0, name_field(name), 9};
+  return {{bits_of(value)}, 1, 0, name_field(name), 9};
 }
 
 class LinkTest : public ::testing::Test {
@@ -57,8 +57,8 @@ TEST_F(LinkTest, KeepsSilentForASetThatChangesNothingOrMakesNoSense) {
   fcu.deliver(set_real("NUM_MOTORS", 6.0F));
   fcu.deliver(set_integer("PID_TAU", 1));
   fcu.deliver(set_integer("NO_SUCH_THING", 1));
-  fcu.deliver(ParamSet{bits_of(6), 2, 0, name_field("NUM_MOTORS"), 6});
-  fcu.deliver(ParamSet{bits_of(6), 1, 0, name_field("NUM_MOTORS"), 5});
+  fcu.deliver(ParamSet{{bits_of(6)}, 2, 0, name_field("NUM_MOTORS"), 6});
+  fcu.deliver(ParamSet{{bits_of(6)}, 1, 0, name_field("NUM_MOTORS"), 5});
   EXPECT_TRUE(answers().empty());
   EXPECT_EQ(fcu.firmware().parameters().integer(parameter("NUM_MOTORS")), 4);
 }

@@ -195,9 +195,9 @@ TEST(FirmwareRcTest, ReportsEightChannelsInMicroseconds) {
 
 TEST(FirmwareRcTest, KeepsSwitchesMappedWhenOnlyTheirNumberChanges) {
   FakeBoard fcu(armable());
-  fcu.deliver(ParamSet{bits_of(4), 1, 0, name_field("RC_NUM_CHN"), 6});
+  fcu.deliver(ParamSet{{bits_of(4)}, 1, 0, name_field("RC_NUM_CHN"), 6});
   EXPECT_TRUE(fcu.firmware().rc().mapped(Switch::kArm));
-  fcu.deliver(ParamSet{bits_of(5), 1, 0, name_field("RC_ARM_CHN"), 6});
+  fcu.deliver(ParamSet{{bits_of(5)}, 1, 0, name_field("RC_ARM_CHN"), 6});
   EXPECT_FALSE(fcu.firmware().rc().mapped(Switch::kArm));
 }
 
@@ -270,7 +270,7 @@ TEST(FirmwareTelemetryTest, HoldsTextsUntilTheFirstHeartbeatAndReleasesOnePerPas
 TEST(FirmwareTelemetryTest, KeepsTheLastTwentyFiveTexts) {
   FakeBoard fcu;
   for (int k = 0; k < 30; ++k) {
-    fcu.deliver(ParamSet{bits_of(k % 2 == 0 ? 6 : 7), 1, 0, name_field("RC_ARM_CHN"), 6});
+    fcu.deliver(ParamSet{{bits_of(k % 2 == 0 ? 6 : 7)}, 1, 0, name_field("RC_ARM_CHN"), 6});
   }
   fcu.put(Heartbeat{});
   for (int k = 0; k < 40; ++k) fcu.pass();

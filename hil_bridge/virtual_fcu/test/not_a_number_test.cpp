@@ -70,11 +70,11 @@ TEST_F(NotANumberTest, KeepsTheOutputsFiniteWhateverRealParameterIsSet) {
     if (kParameterTable[k].type != ParameterType::kReal) continue;
     for (const float bad : kNotNumbers) {
       const std::uint32_t before = fcu.firmware().parameters().bits({k});
-      fcu.deliver(ParamSet{bits_of(bad), 1, 0, kParameterTable[k].name, 9});
+      fcu.deliver(ParamSet{{bits_of(bad)}, 1, 0, kParameterTable[k].name, 9});
       fcu.rc_pass();
       fcu.imu_passes(2);
       ASSERT_TRUE(all_finite(fcu.board().outputs)) << kParameterTable[k].name.data();
-      fcu.deliver(ParamSet{before, 1, 0, kParameterTable[k].name, 9});
+      fcu.deliver(ParamSet{{before}, 1, 0, kParameterTable[k].name, 9});
     }
   }
 }
@@ -125,7 +125,7 @@ TEST_F(NotANumberTest, KeepsAnExternalAttitudeThroughAStepOfNoLength) {
 }
 
 TEST_F(NotANumberTest, FliesOnThroughAVerticalNose) {
-  fcu.deliver(ParamSet{bits_of(0), 1, 0, name_field("FILT_USE_ACC"), 6});
+  fcu.deliver(ParamSet{{bits_of(0)}, 1, 0, name_field("FILT_USE_ACC"), 6});
   for (int k = 0; k < 4000; ++k) {
     fcu.imu_pass({0, 0, -kGravity}, {0.0F, 3.0F + 1e-3F * static_cast<float>(k), 0.0F});
     ASSERT_TRUE(std::isfinite(fcu.firmware().filter().attitude().pitch())) << k;

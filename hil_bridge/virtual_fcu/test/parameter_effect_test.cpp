@@ -20,10 +20,10 @@ class ParameterEffectTest : public ::testing::Test {
     for (int k = 0; k < 40; ++k) fcu.pass();
   }
   void set(std::string_view name, int value) {
-    fcu.deliver(ParamSet{bits_of(std::int32_t{value}), 1, 0, name_field(name), 6});
+    fcu.deliver(ParamSet{{bits_of(std::int32_t{value})}, 1, 0, name_field(name), 6});
   }
   void set(std::string_view name, float value) {
-    fcu.deliver(ParamSet{bits_of(value), 1, 0, name_field(name), 9});
+    fcu.deliver(ParamSet{{bits_of(value)}, 1, 0, name_field(name), 9});
   }
   /// Sets it to a value that it does not have.
   void change(std::string_view name) {
@@ -74,7 +74,7 @@ TEST_F(ParameterEffectTest, RebuildsTheControllerWithTheDensityOfTheDayForTheseO
     const std::uint32_t bits =
         is_real ? bits_of(parameters.real(id) * 1.02F + 1e-4F) : bits_of(parameters.integer(id) + 1);
     fresh.deliver(
-        ParamSet{bits, 1, 0, kParameterTable[id.index].name, is_real ? std::uint8_t{9} : std::uint8_t{6}});
+        ParamSet{{bits}, 1, 0, kParameterTable[id.index].name, is_real ? std::uint8_t{9} : std::uint8_t{6}});
     ASSERT_EQ(parameters.bits(id), bits) << row.name;
     const float wanted = row.rebuilds ? maximum_thrust(parameters, density) : boot;
     EXPECT_NEAR(fresh.firmware().controller().maximum_thrust(), wanted, 1e-3F) << row.name;
@@ -93,8 +93,8 @@ TEST_F(ParameterEffectTest, RebuildsTheMixerForTheseOnly) {
         Row{"RC_F_AXIS", 1, true}, Row{"NUM_MOTORS", 6, false}, Row{"FIXED_WING", 1, false},
         Row{"REV_RUDDER", 1, false}, Row{"ARM_SPIN_MOTORS", 0, false}, Row{"PRI_MIXER_OUT_6", 2, false}}) {
     FakeBoard fresh(armable());
-    fresh.deliver(ParamSet{bits_of(-0.3F), 1, 0, name_field("PRI_MIXER_2_0"), 9});
-    fresh.deliver(ParamSet{bits_of(row.value), 1, 0, name_field(row.name), 6});
+    fresh.deliver(ParamSet{{bits_of(-0.3F)}, 1, 0, name_field("PRI_MIXER_2_0"), 9});
+    fresh.deliver(ParamSet{{bits_of(row.value)}, 1, 0, name_field(row.name), 6});
     const ParameterStore& parameters = fresh.firmware().parameters();
     ASSERT_EQ(parameters.integer(find_parameter(row.name)), row.value);
     const bool edited = parameters.real(primary_element(2, 0)) == -0.3F;
