@@ -20,6 +20,11 @@ namespace {
 /// A chunk that claims more than this is damaged, not large.
 constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 30;
 
+/// What zstd can make of so many bytes at most: the smallest block has four, and stands for 128 KiB.
+std::uint64_t most_unpacked(std::uint64_t stored) {
+  return (stored / 4 + 1) * ZSTD_BLOCKSIZE_MAX;
+}
+
 McapMetadata read_map(ByteCursor& cursor) {
   ByteCursor pairs(cursor.take(cursor.get<std::uint32_t>()));
   McapMetadata values;
@@ -81,6 +86,7 @@ McapReader::McapReader(const std::filesystem::path& file) : path_(file) {
   if (!std::equal(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(magic), kMcapMagic.begin())) {
     throw UserError(file.string() + ": is not a log: it does not begin like an MCAP file");
   }
+  allowance_ = Allowance(bytes_.size());
   record_ = bytes_.data();
   scan(std::span<const std::uint8_t>(bytes_).subspan(magic), false);
 }
@@ -168,11 +174,16 @@ void McapReader::take_chunk(std::span<const std::uint8_t> content) {
 
 std::span<const std::uint8_t> McapReader::decompressed(std::span<const std::uint8_t> stored,
                                                        std::uint64_t size) {
-  if (size > kLargestChunk) fail("a chunk claims " + std::to_string(size) + " bytes");
-  std::vector<std::uint8_t>& out = unpacked_.emplace_back(size);
-  const std::size_t result = ZSTD_decompress(out.data(), out.size(), stored.data(), stored.size());
+  if (size > std::min(kLargestChunk, most_unpacked(stored.size()))) {
+    fail("a chunk claims " + std::to_string(size) + " bytes, compressed to " + std::to_string(stored.size()));
+  }
+  if (!allowance_.take(size)) fail("chunks unpack to " + allowance_.refusal());
+  // Not zeroed: a chunk that claims too much costs no more than what is in it.
+  std::uint8_t* const out =
+      unpacked_.emplace_back(std::make_unique_for_overwrite<std::uint8_t[]>(size)).get();
+  const std::size_t result = ZSTD_decompress(out, size, stored.data(), stored.size());
   if (ZSTD_isError(result) != 0) fail(std::string("a chunk is damaged: ") + ZSTD_getErrorName(result));
-  return {out.data(), result};
+  return {out, result};
 }
 
 }  // namespace ironbird::scenarios
