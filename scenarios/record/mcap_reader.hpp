@@ -13,6 +13,8 @@
 
 namespace ironbird::scenarios {
 
+class ByteCursor;
+
 /// A message type as a log carries it.
 struct McapSchema {
   std::string name;
@@ -42,7 +44,7 @@ struct McapMessage {
 ///
 /// Takes what is whole: a file cut at any byte gives its complete records. A chunk is one record, so one that
 /// is cut is lost. Chunks may be stored or compressed with zstd; lz4 is refused. Attachments are skipped.
-/// Chunks that unpack to more than an Allowance are refused.
+/// A file whose chunks unpack to more than an Allowance is refused.
 class McapReader {
  public:
   /// @throws std::runtime_error naming the file, and the byte for damage in its middle
@@ -67,6 +69,8 @@ class McapReader {
  private:
   void scan(std::span<const std::uint8_t> records, bool inside_chunk);
   bool take(McapOpcode opcode, std::span<const std::uint8_t> content, bool inside_chunk);
+  void add_map(ByteCursor& cursor, McapMetadata& values);
+  void pay(std::uint64_t bytes);
   void take_chunk(std::span<const std::uint8_t> content);
   std::span<const std::uint8_t> decompressed(std::span<const std::uint8_t> stored, std::uint64_t size);
   [[noreturn]] void fail(const std::string& what) const;

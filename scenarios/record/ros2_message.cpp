@@ -125,6 +125,7 @@ std::vector<RawMessage> split(std::string_view name, std::string_view text, Allo
     const std::size_t end = text.find('\n');
     const std::string_view line = trimmed(text.substr(0, end));
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+    pay(kField);
     if (line.starts_with("====")) continue;
     if (line.starts_with("MSG:")) {
       pay(kMessage);
@@ -133,9 +134,7 @@ std::vector<RawMessage> split(std::string_view name, std::string_view text, Allo
     }
     RawField field;
     const bool ours = messages.back().name.starts_with("ironbird_msgs/");
-    if (!parse_line(line, ours, field)) continue;
-    pay(kField);
-    messages.back().fields.push_back(std::move(field));
+    if (parse_line(line, ours, field)) messages.back().fields.push_back(std::move(field));
   }
   return messages;
 }

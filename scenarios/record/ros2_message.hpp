@@ -54,7 +54,7 @@ struct Ros2MessageType {
 
 /// Reads a ros2msg schema text with all the types it brings along; the outermost type comes first.
 /// Fields of our own types get back the capitals that ROS does not allow.
-/// @param allowance  pays for the fields
+/// @param allowance  pays for the lines
 /// @throws std::runtime_error with the line that is wrong or the type that is missing, contains itself or is
 /// nested more than 64 deep
 std::vector<Ros2MessageType> parse_ros2_schema(std::string_view name, std::string_view text,

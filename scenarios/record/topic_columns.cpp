@@ -44,14 +44,19 @@ class TopicColumns::Input {
 
   template <class Number>
   Number get() {
-    const std::size_t alignment = std::min(sizeof(Number), most_alignment_);
-    at_ = (at_ + alignment - 1) / alignment * alignment;
+    align(sizeof(Number));
     std::array<std::uint8_t, sizeof(Number)> raw;
     std::memcpy(raw.data(), take(sizeof(Number)).data(), sizeof(Number));
     if (swapped_) std::reverse(raw.begin(), raw.end());
     Number value;
     std::memcpy(&value, raw.data(), sizeof value);
     return value;
+  }
+
+  /// Leaves out numbers of so many bytes each.
+  void skip(std::size_t count, std::size_t size) {
+    align(size);
+    take(count * size);
   }
 
   std::size_t left() const { return bytes_.size() - std::min(at_, bytes_.size()); }
@@ -71,6 +76,11 @@ class TopicColumns::Input {
   }
 
  private:
+  void align(std::size_t size) {
+    const std::size_t alignment = std::min(size, most_alignment_);
+    at_ = (at_ + alignment - 1) / alignment * alignment;
+  }
+
   std::span<const std::uint8_t> take(std::size_t count) {
     if (at_ > bytes_.size() || count > bytes_.size() - at_) throw UserError("ends too early");
     const auto taken = bytes_.subspan(at_, count);
@@ -149,7 +159,7 @@ void TopicColumns::prepare(Node& node, const Ros2Field& field) {
   if ((!field.is_sequence && !field.is_array) || field.is_optional()) return prepare_element(node, field);
   node.is_numbered = true;
   if (!field.is_array) return;
-  for (std::size_t i = 0; i < std::min(field.length, kMostColumns); ++i) element(&node, field, i);
+  for (std::size_t i = 0; i < std::min(field.length, kMostColumns); ++i) element(node, field, i);
 }
 
 void TopicColumns::prepare_element(Node& node, const Ros2Field& field) {
@@ -173,11 +183,10 @@ void TopicColumns::add(std::span<const std::uint8_t> message) {
   ++count_;
 }
 
-/// The place of an element, made now if there was none; null when it becomes no column.
-TopicColumns::Node* TopicColumns::element(Node* node, const Ros2Field& field, std::size_t index) {
-  if (node == nullptr || index >= kMostColumns) return nullptr;
-  if (index == node->children.size()) prepare_element(add_child(*node, nullptr), field);
-  return &node->children[index];
+/// The place of an element, made now if there was none.
+TopicColumns::Node* TopicColumns::element(Node& node, const Ros2Field& field, std::size_t index) {
+  if (index == node.children.size()) prepare_element(add_child(node, nullptr), field);
+  return &node.children[index];
 }
 
 /// @param node  null: read and forget
@@ -191,7 +200,17 @@ void TopicColumns::read_field(Input& input, Node* node, const Ros2Field& field) 
   }
   if (field.element_size == 0) return;  // however many of nothing
   if (length > input.left() / field.element_size) throw UserError("ends too early");
-  for (std::size_t i = 0; i < length; ++i) read_element(input, element(node, field, i), field);
+  const std::size_t columns = node == nullptr ? 0 : std::min(length, kMostColumns);
+  for (std::size_t i = 0; i < columns; ++i) read_element(input, element(*node, field, i), field);
+  skip(input, field, length - columns);
+}
+
+void TopicColumns::skip(Input& input, const Ros2Field& field, std::size_t count) {
+  if (count == 0) return;
+  if (field.kind == Ros2Kind::kTime) return input.skip(2 * count, sizeof(std::int32_t));
+  if (field.kind != Ros2Kind::kMessage && field.kind != Ros2Kind::kString)
+    return input.skip(count, field.element_size);
+  for (std::size_t i = 0; i < count; ++i) read_element(input, nullptr, field);
 }
 
 void TopicColumns::read_element(Input& input, Node* node, const Ros2Field& field) {

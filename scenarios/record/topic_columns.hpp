@@ -37,9 +37,10 @@ class TopicColumns {
   void prepare(Node& node, const Ros2Field& field);
   void prepare_element(Node& node, const Ros2Field& field);
   Node& add_child(Node& node, const std::string* name);
-  Node* element(Node* node, const Ros2Field& field, std::size_t index);
+  Node* element(Node& node, const Ros2Field& field, std::size_t index);
   void read_field(Input& input, Node* node, const Ros2Field& field);
   void read_element(Input& input, Node* node, const Ros2Field& field);
+  void skip(Input& input, const Ros2Field& field, std::size_t count);
   void pay(std::size_t bytes);
   template <class Output>
   void collect(Node& node, const std::string& path, Output& output);

@@ -130,6 +130,23 @@ TEST(TopicColumnsTest, KeepsPicturesOutOfTheColumns) {
   EXPECT_THAT(columns.numbers.at("after"), ElementsAre(9));
 }
 
+TEST(TopicColumnsTest, PassesOverWhatBecomesNoColumn) {
+  const std::string many = u32(4097);
+  const Columns columns = decode(
+      "float64[] a\nbuiltin_interfaces/Time[] b\nP[] c\nstring[] d\nuint16 after\n====\nMSG: "
+      "some_msgs/P\nuint8 x\nuint8[] y\n",
+      {kLittle + many + pad(4) + std::string(4097 * 8, '\1') + many + std::string(4097 * 8, '\1') + many +
+       [] {
+         std::string points;
+         for (int i = 0; i < 4097; ++i) points += u8(3) + pad(3) + u32(4) + std::string(4, '\1');
+         return points;
+       }() +
+       many + std::string(4097 * 4, '\0') + u16(9)});
+  EXPECT_THAT(columns.numbers.at("after"), ElementsAre(9));
+  EXPECT_THAT(columns.numbers.at("c[4095].y[3]"), ElementsAre(1));
+  EXPECT_FALSE(columns.numbers.contains("c[4096].x"));
+}
+
 TEST(TopicColumnsTest, ReadsNothingOfWhatHasNoMembersHoweverMany) {
   const Columns columns = decode(
       "Empty[18446744073709551615] many\nEmpty[] some\nEmpty[<=1] maybe\nfloat64[0] none\nuint8 after\n"
