@@ -10,6 +10,7 @@
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/file_search.hpp"
 #include "scenarios/config/text_file.hpp"
+#include "scenarios/config/toml_depth.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -81,11 +82,15 @@ std::string shortened(std::string_view text) {
 
 /// The value that a command line means by `text`. @param name  of the option, for messages
 toml::table parse_option(std::string_view text, const std::string& name) {
+  const std::string line = "value = " + std::string(text);
   try {
-    toml::table parsed = toml::parse("value = " + std::string(text), name);
+    refuse_long_keys(line, name);
+    toml::table parsed = toml::parse(line, name);
     if (parsed.size() == 1) return parsed;
   } catch (const toml::parse_error&) {
     // No TOML value: a text without quotes.
+  } catch (const ConfigError&) {
+    // None that we would take, and many dots are no fault of a text.
   }
   std::string quoted;
   for (const char c : text) {
@@ -202,8 +207,11 @@ std::string place_of(const toml::node& node) {
 }
 
 toml::table parse_toml(std::string_view text, std::string_view name) {
+  refuse_long_keys(text, name);
   try {
-    return toml::parse(text, name);
+    toml::table table = toml::parse(text, name);
+    refuse_depth(table);
+    return table;
   } catch (const toml::parse_error& error) {
     throw ConfigError(location(error.source()) + ": " + std::string(error.description()));
   }
@@ -235,9 +243,12 @@ toml::table load_toml(const std::filesystem::path& file) {
 
 void set_value(toml::table& root, std::string_view path, std::string_view text) {
   const std::vector<Step> steps = split_path(path);
+  if (steps.size() > kDeepestToml)
+    throw ConfigError(std::string(kOption) + " " + shortened(path) + too_deep());
   const std::string name = std::string(kOption) + " " + std::string(path) + "=" + shortened(text);
   toml::table parsed = parse_option(text, name);
   toml::node& value = *parsed.get("value");
+  refuse_depth(value, steps.size());
   toml::node* at = &root;
   for (std::size_t i = 0; i + 1 < steps.size() && at != nullptr; ++i) at = descend(*at, steps[i]);
   const Step& last = steps.back();
