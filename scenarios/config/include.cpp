@@ -19,6 +19,10 @@ using Path = std::filesystem::path;
 
 constexpr std::string_view kOption = "--set";
 
+/// How many files one may read, itself and each as often as it is included. Files that each include the next
+/// one twice would double it with each.
+constexpr std::size_t kMostFiles = 256;
+
 /// Puts a node into a table without losing where it came from, which copying would.
 void put(toml::table& table, std::string_view key, toml::node&& value) {
   std::move(value).visit([&](auto&& node) { table.insert_or_assign(key, std::move(node)); });
@@ -27,6 +31,10 @@ void put(toml::table& table, std::string_view key, toml::node&& value) {
 class Loader {
  public:
   toml::table load(const Path& file, const std::string& asked_by) {
+    if (++files_ > kMostFiles) {
+      throw ConfigError(asked_by + "include = \"" + file.string() + "\": more than " +
+                        std::to_string(kMostFiles) + " files would be read, each as often as it is included");
+    }
     const std::string text = read_config_text(file, asked_by);
     std::error_code ignored;
     const Path identity = std::filesystem::weakly_canonical(file, ignored);
@@ -73,6 +81,7 @@ class Loader {
   }
 
   std::vector<Path> open_;
+  std::size_t files_ = 0;
 };
 
 std::string shortened(std::string_view text) {
