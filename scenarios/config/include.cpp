@@ -10,6 +10,7 @@
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/file_search.hpp"
 #include "scenarios/config/text_file.hpp"
+#include "scenarios/config/toml_depth.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -17,6 +18,10 @@ namespace {
 using Path = std::filesystem::path;
 
 constexpr std::string_view kOption = "--set";
+
+/// How many files one may read, itself and each as often as it is included. Files that each include the next
+/// one twice would double it with each.
+constexpr std::size_t kMostFiles = 256;
 
 /// Puts a node into a table without losing where it came from, which copying would.
 void put(toml::table& table, std::string_view key, toml::node&& value) {
@@ -26,6 +31,10 @@ void put(toml::table& table, std::string_view key, toml::node&& value) {
 class Loader {
  public:
   toml::table load(const Path& file, const std::string& asked_by) {
+    if (++files_ > kMostFiles) {
+      throw ConfigError(asked_by + "include = \"" + file.string() + "\": more than " +
+                        std::to_string(kMostFiles) + " files would be read, each as often as it is included");
+    }
     const std::string text = read_config_text(file, asked_by);
     std::error_code ignored;
     const Path identity = std::filesystem::weakly_canonical(file, ignored);
@@ -72,6 +81,7 @@ class Loader {
   }
 
   std::vector<Path> open_;
+  std::size_t files_ = 0;
 };
 
 std::string shortened(std::string_view text) {
@@ -81,11 +91,15 @@ std::string shortened(std::string_view text) {
 
 /// The value that a command line means by `text`. @param name  of the option, for messages
 toml::table parse_option(std::string_view text, const std::string& name) {
+  const std::string line = "value = " + std::string(text);
   try {
-    toml::table parsed = toml::parse("value = " + std::string(text), name);
+    refuse_long_keys(line, name);
+    toml::table parsed = toml::parse(line, name);
     if (parsed.size() == 1) return parsed;
   } catch (const toml::parse_error&) {
     // No TOML value: a text without quotes.
+  } catch (const ConfigError&) {
+    // None that we would take, and many dots are no fault of a text.
   }
   std::string quoted;
   for (const char c : text) {
@@ -202,8 +216,11 @@ std::string place_of(const toml::node& node) {
 }
 
 toml::table parse_toml(std::string_view text, std::string_view name) {
+  refuse_long_keys(text, name);
   try {
-    return toml::parse(text, name);
+    toml::table table = toml::parse(text, name);
+    refuse_depth(table);
+    return table;
   } catch (const toml::parse_error& error) {
     throw ConfigError(location(error.source()) + ": " + std::string(error.description()));
   }
@@ -235,9 +252,12 @@ toml::table load_toml(const std::filesystem::path& file) {
 
 void set_value(toml::table& root, std::string_view path, std::string_view text) {
   const std::vector<Step> steps = split_path(path);
+  if (steps.size() > kDeepestToml)
+    throw ConfigError(std::string(kOption) + " " + shortened(path) + too_deep());
   const std::string name = std::string(kOption) + " " + std::string(path) + "=" + shortened(text);
   toml::table parsed = parse_option(text, name);
   toml::node& value = *parsed.get("value");
+  refuse_depth(value, steps.size());
   toml::node* at = &root;
   for (std::size_t i = 0; i + 1 < steps.size() && at != nullptr; ++i) at = descend(*at, steps[i]);
   const Step& last = steps.back();

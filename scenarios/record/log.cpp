@@ -7,6 +7,7 @@
 
 #include "scenarios/config/one_line.hpp"
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/record/allowance.hpp"
 #include "scenarios/record/mcap_reader.hpp"
 #include "scenarios/record/topic_columns.hpp"
 
@@ -23,6 +24,13 @@ const auto& find_or_throw(const Columns& columns, std::string_view field, const 
   return found->second;
 }
 
+/// What is read as one topic: the messages of all channels that have its name and the schema of the first.
+struct Source {
+  std::uint16_t schema = 0;
+  bool readable = false;
+  std::vector<const McapMessage*> messages;
+};
+
 }  // namespace
 
 bool LogTopic::has(std::string_view field) const {
@@ -38,12 +46,64 @@ const std::vector<std::string>& LogTopic::texts(std::string_view field) const {
 }
 
 struct Log::Contents {
-  explicit Contents(const std::filesystem::path& file) : path(file), reader(file) {}
+  explicit Contents(const std::filesystem::path& file);
+  const std::vector<Ros2MessageType>& types_of(std::uint16_t schema);
+  LogTopic decode(const std::string& name, const Source& source);
 
   std::filesystem::path path;
   McapReader reader;
+  Allowance allowance;  ///< for the columns of all topics
+  std::map<std::string, Source, std::less<>> sources;
+  std::map<std::uint16_t, std::vector<Ros2MessageType>> types;
   std::map<std::string, LogTopic, std::less<>> decoded;
 };
+
+Log::Contents::Contents(const std::filesystem::path& file)
+    : path(file), reader(file), allowance(reader.file_size()) {
+  std::map<std::uint16_t, Source*> source_of;
+  for (const auto& [id, channel] : reader.channels()) {
+    const auto schema = reader.schemas().find(channel.schema);
+    const bool readable =
+        schema != reader.schemas().end() && schema->second.encoding == "ros2msg" && channel.encoding == "cdr";
+    Source& source = sources.try_emplace(channel.topic, Source{channel.schema, readable, {}}).first->second;
+    if (source.schema == channel.schema) source_of[id] = &source;
+  }
+  for (const McapMessage& message : reader.messages()) {
+    const auto source = source_of.find(message.channel);
+    if (source != source_of.end()) source->second->messages.push_back(&message);
+  }
+}
+
+const std::vector<Ros2MessageType>& Log::Contents::types_of(std::uint16_t schema) {
+  const auto known = types.find(schema);
+  if (known != types.end()) return known->second;
+  const McapSchema& text = reader.schemas().at(schema);
+  Allowance rest = allowance;
+  std::vector<Ros2MessageType> parsed = parse_ros2_schema(text.name, text.text, rest);
+  allowance = rest;
+  return types.emplace(schema, std::move(parsed)).first->second;
+}
+
+LogTopic Log::Contents::decode(const std::string& name, const Source& source) {
+  LogTopic topic;
+  topic.name_ = name;
+  try {
+    static const std::vector<Ros2MessageType> kNothing(1);
+    const std::vector<Ros2MessageType>& message_types = source.readable ? types_of(source.schema) : kNothing;
+    Allowance rest = allowance;
+    TopicColumns columns(message_types, rest);
+    for (const McapMessage* const message : source.messages) {
+      topic.time_.push_back(static_cast<double>(message->log_time) / 1e9);
+      if (source.readable) columns.add(message->data);
+    }
+    columns.finish(topic.fields_, topic.columns_, topic.texts_);
+    allowance = rest;
+  } catch (const std::runtime_error& error) {
+    throw UserError(on_one_line(path.string() + ": topic " + name + ", message " +
+                                std::to_string(topic.time_.size()) + ": " + error.what()));
+  }
+  return topic;
+}
 
 Log::Log(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
 Log::Log(Log&&) noexcept = default;
@@ -57,39 +117,14 @@ Log Log::read(const std::filesystem::path& file) {
 const LogTopic* Log::topic(std::string_view name) const {
   const auto known = contents_->decoded.find(name);
   if (known != contents_->decoded.end()) return &known->second;
-  const McapReader& reader = contents_->reader;
-  const auto& channels = reader.channels();
-  const auto channel = std::find_if(channels.begin(), channels.end(),
-                                    [&](const auto& entry) { return entry.second.topic == name; });
-  if (channel == channels.end()) return nullptr;
-
-  LogTopic topic;
-  topic.name_ = name;
-  const auto schema = reader.schemas().find(channel->second.schema);
-  const bool readable = schema != reader.schemas().end() && schema->second.encoding == "ros2msg" &&
-                        channel->second.encoding == "cdr";
-  try {
-    TopicColumns columns(readable ? parse_ros2_schema(schema->second.name, schema->second.text)
-                                  : std::vector<Ros2MessageType>(1));
-    for (const McapMessage& message : reader.messages()) {
-      const McapChannel& from = channels.at(message.channel);
-      if (from.topic != name || from.schema != channel->second.schema) continue;
-      topic.time_.push_back(static_cast<double>(message.log_time) / 1e9);
-      if (readable) columns.add(message.data);
-    }
-    if (readable) columns.finish(topic.fields_, topic.columns_, topic.texts_);
-  } catch (const std::runtime_error& error) {
-    throw UserError(on_one_line(contents_->path.string() + ": topic " + topic.name_ + ", message " +
-                                std::to_string(topic.time_.size()) + ": " + error.what()));
-  }
-  return &contents_->decoded.emplace(topic.name_, std::move(topic)).first->second;
+  const auto source = contents_->sources.find(name);
+  if (source == contents_->sources.end()) return nullptr;
+  return &contents_->decoded.emplace(name, contents_->decode(source->first, source->second)).first->second;
 }
 
 std::vector<std::string> Log::topics() const {
   std::vector<std::string> names;
-  for (const auto& [id, channel] : contents_->reader.channels()) names.push_back(channel.topic);
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
+  for (const auto& [name, source] : contents_->sources) names.push_back(name);
   return names;
 }
 

@@ -20,14 +20,9 @@ namespace {
 /// A chunk that claims more than this is damaged, not large.
 constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 30;
 
-McapMetadata read_map(ByteCursor& cursor) {
-  ByteCursor pairs(cursor.take(cursor.get<std::uint32_t>()));
-  McapMetadata values;
-  while (!pairs.rest().empty()) {
-    const std::string_view name = pairs.text();
-    values[std::string(name)] = pairs.text();
-  }
-  return values;
+/// What zstd can make of so many bytes at most: the smallest block has four, and stands for 128 KiB.
+std::uint64_t most_unpacked(std::uint64_t stored) {
+  return (stored / 4 + 1) * ZSTD_BLOCKSIZE_MAX;
 }
 
 McapSchema read_schema(ByteCursor& cursor) {
@@ -44,7 +39,6 @@ McapChannel read_channel(ByteCursor& cursor) {
   channel.schema = cursor.get<std::uint16_t>();
   channel.topic = cursor.text();
   channel.encoding = cursor.text();
-  channel.metadata = read_map(cursor);
   return channel;
 }
 
@@ -81,6 +75,7 @@ McapReader::McapReader(const std::filesystem::path& file) : path_(file) {
   if (!std::equal(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(magic), kMcapMagic.begin())) {
     throw UserError(file.string() + ": is not a log: it does not begin like an MCAP file");
   }
+  allowance_ = Allowance(bytes_.size());
   record_ = bytes_.data();
   scan(std::span<const std::uint8_t>(bytes_).subspan(magic), false);
 }
@@ -88,6 +83,10 @@ McapReader::McapReader(const std::filesystem::path& file) : path_(file) {
 void McapReader::fail(const std::string& what) const {
   throw UserError(
       on_one_line(path_.string() + ": byte " + std::to_string(record_ - bytes_.data()) + ": " + what));
+}
+
+void McapReader::pay(std::uint64_t bytes) {
+  if (!allowance_.take(bytes)) fail("what is in its chunks comes to " + allowance_.refusal());
 }
 
 void McapReader::scan(std::span<const std::uint8_t> records, bool inside_chunk) {
@@ -120,15 +119,19 @@ bool McapReader::take(McapOpcode opcode, std::span<const std::uint8_t> content, 
       break;
     case McapOpcode::kSchema: {
       const auto id = cursor.get<std::uint16_t>();
+      pay(sizeof(McapSchema));
       schemas_[id] = read_schema(cursor);
       break;
     }
     case McapOpcode::kChannel: {
-      const McapChannel channel = read_channel(cursor);
-      channels_[channel.id] = channel;
+      pay(sizeof(McapChannel));
+      McapChannel channel = read_channel(cursor);
+      add_map(cursor, channel.metadata);
+      channels_[channel.id] = std::move(channel);
       break;
     }
     case McapOpcode::kMessage:
+      pay(sizeof(McapMessage));
       messages_.push_back(read_message(cursor));
       if (!channels_.contains(messages_.back().channel)) fail("a message comes before its channel");
       break;
@@ -136,17 +139,25 @@ bool McapReader::take(McapOpcode opcode, std::span<const std::uint8_t> content, 
       if (inside_chunk) fail("a chunk lies inside a chunk");
       take_chunk(content);
       break;
-    case McapOpcode::kMetadata: {
-      McapMetadata& values = metadata_[std::string(cursor.text())];
-      for (auto& [name, value] : read_map(cursor)) values[name] = value;
+    case McapOpcode::kMetadata:
+      pay(sizeof(McapMetadata));
+      add_map(cursor, metadata_[std::string(cursor.text())]);
       break;
-    }
     case McapOpcode::kFooter:
       return false;
     default:  // indexes, statistics, attachments, and kinds of record that came later
       break;
   }
   return true;
+}
+
+void McapReader::add_map(ByteCursor& cursor, McapMetadata& values) {
+  ByteCursor pairs(cursor.take(cursor.get<std::uint32_t>()));
+  while (!pairs.rest().empty()) {
+    pay(sizeof(McapMetadata::value_type));
+    const std::string_view name = pairs.text();
+    values[std::string(name)] = pairs.text();
+  }
 }
 
 void McapReader::take_chunk(std::span<const std::uint8_t> content) {
@@ -168,11 +179,16 @@ void McapReader::take_chunk(std::span<const std::uint8_t> content) {
 
 std::span<const std::uint8_t> McapReader::decompressed(std::span<const std::uint8_t> stored,
                                                        std::uint64_t size) {
-  if (size > kLargestChunk) fail("a chunk claims " + std::to_string(size) + " bytes");
-  std::vector<std::uint8_t>& out = unpacked_.emplace_back(size);
-  const std::size_t result = ZSTD_decompress(out.data(), out.size(), stored.data(), stored.size());
+  if (size > std::min(kLargestChunk, most_unpacked(stored.size()))) {
+    fail("a chunk claims " + std::to_string(size) + " bytes, compressed to " + std::to_string(stored.size()));
+  }
+  pay(size);
+  // Not zeroed: a chunk that claims too much costs no more than what is in it.
+  std::uint8_t* const out =
+      unpacked_.emplace_back(std::make_unique_for_overwrite<std::uint8_t[]>(size)).get();
+  const std::size_t result = ZSTD_decompress(out, size, stored.data(), stored.size());
   if (ZSTD_isError(result) != 0) fail(std::string("a chunk is damaged: ") + ZSTD_getErrorName(result));
-  return {out.data(), result};
+  return {out, result};
 }
 
 }  // namespace ironbird::scenarios

@@ -114,14 +114,21 @@ struct RawMessage {
   std::vector<RawField> fields;
 };
 
-std::vector<RawMessage> split(std::string_view name, std::string_view text) {
+std::vector<RawMessage> split(std::string_view name, std::string_view text, Allowance& allowance) {
+  constexpr std::size_t kField = sizeof(RawField) + sizeof(Ros2Field);
+  constexpr std::size_t kMessage = sizeof(RawMessage) + sizeof(Ros2MessageType);
+  const auto pay = [&](std::size_t bytes) {
+    if (!allowance.take(bytes)) throw UserError("the schema comes to " + allowance.refusal());
+  };
   std::vector<RawMessage> messages{{plain_name(name), {}}};
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     const std::string_view line = trimmed(text.substr(0, end));
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+    pay(kField);
     if (line.starts_with("====")) continue;
     if (line.starts_with("MSG:")) {
+      pay(kMessage);
       messages.push_back({plain_name(trimmed(line.substr(4))), {}});
       continue;
     }
@@ -132,34 +139,107 @@ std::vector<RawMessage> split(std::string_view name, std::string_view text) {
   return messages;
 }
 
-/// A type may be named in full, or without its package when it is in the package of the message using it.
-std::size_t find_type(const std::vector<RawMessage>& messages, const RawMessage& user,
-                      const std::string& type) {
-  const std::string package = user.name.substr(0, user.name.find('/') + 1);
-  const std::string short_header = type == "Header" ? "std_msgs/Header" : "";
-  for (const std::string& wanted : {type, package + type, short_header}) {
-    for (std::size_t i = 0; i < messages.size(); ++i) {
-      if (messages[i].name == wanted) return i;
-    }
+/// Finds message types by name; of two definitions the first counts.
+class TypeIndex {
+ public:
+  explicit TypeIndex(const std::vector<RawMessage>& messages) {
+    for (std::size_t i = 0; i < messages.size(); ++i) index_.emplace(messages[i].name, i);
   }
-  throw UserError("type " + type + " of a field of " + user.name + " is not defined");
+
+  /// A type may be named in full, or without its package when it is in the package of the message using it.
+  std::size_t find(const RawMessage& user, const std::string& type) const {
+    const std::string package = user.name.substr(0, user.name.find('/') + 1);
+    const std::string header = type == "Header" ? "std_msgs/Header" : type;
+    for (const std::string& wanted : {type, package + type, header}) {
+      if (const auto found = index_.find(wanted); found != index_.end()) return found->second;
+    }
+    throw UserError("type " + type + " of a field of " + user.name + " is not defined");
+  }
+
+ private:
+  std::map<std::string_view, std::size_t> index_;
+};
+
+/// Least bytes of a number, time or text.
+std::size_t built_in_size(Ros2Kind kind) {
+  switch (kind) {
+    case Ros2Kind::kInt16:
+    case Ros2Kind::kUint16:
+      return 2;
+    case Ros2Kind::kInt32:
+    case Ros2Kind::kUint32:
+    case Ros2Kind::kFloat32:
+    case Ros2Kind::kString:  // its length
+      return 4;
+    case Ros2Kind::kInt64:
+    case Ros2Kind::kUint64:
+    case Ros2Kind::kFloat64:
+    case Ros2Kind::kTime:
+      return 8;
+    default:
+      return 1;
+  }
 }
 
-/// Refuses a type that contains itself, which would have no end.
-void refuse_cycle(const std::vector<Ros2MessageType>& types, std::size_t at, std::vector<char>& open) {
-  if (open[at] == 1) throw UserError("type " + types[at].name + " contains itself");
-  if (open[at] == 2) return;
-  open[at] = 1;
-  for (const Ros2Field& field : types[at].fields) {
-    if (field.kind == Ros2Kind::kMessage) refuse_cycle(types, field.message, open);
-  }
-  open[at] = 2;
+/// More bytes than any message has.
+constexpr std::size_t kEndless = std::numeric_limits<std::size_t>::max() / 2;
+
+/// Least bytes of a whole field.
+std::size_t field_size(const Ros2Field& field) {
+  if (field.is_sequence) return sizeof(std::uint32_t);
+  if (!field.is_array || field.element_size == 0) return field.element_size;
+  return field.length > kEndless / field.element_size ? kEndless : field.length * field.element_size;
 }
+
+/// Finds how much of each type there is on the wire at least, of inner types first. Refuses a type that
+/// contains itself, which would have no end, and nesting that only a hostile schema has.
+class Measurer {
+ public:
+  explicit Measurer(std::vector<Ros2MessageType>& types) : types_(types), height_(types.size(), kUnknown) {}
+
+  /// @param outside  how many types this one lies in
+  /// @return how many types lie in one another, this one included
+  int measure(std::size_t at, int outside = 0) {
+    Ros2MessageType& type = types_[at];
+    if (height_[at] == kOpen) throw UserError("type " + type.name + " contains itself");
+    refuse_depth(outside);
+    if (height_[at] == kUnknown) {
+      height_[at] = kOpen;
+      int height = 1;
+      for (Ros2Field& field : type.fields) {
+        if (field.kind == Ros2Kind::kMessage)
+          height = std::max(height, 1 + measure(field.message, outside + 1));
+        field.element_size =
+            field.kind == Ros2Kind::kMessage ? types_[field.message].least_size : built_in_size(field.kind);
+        type.least_size = std::min(type.least_size + field_size(field), kEndless);
+      }
+      std::erase_if(type.fields, [](const Ros2Field& field) { return field_size(field) == 0; });
+      height_[at] = height;
+    }
+    refuse_depth(outside + height_[at] - 1);
+    return height_[at];
+  }
+
+ private:
+  static constexpr int kUnknown = 0;
+  static constexpr int kOpen = -1;
+
+  static void refuse_depth(int outside) {
+    constexpr int kDeepest = 64;
+    if (outside >= kDeepest)
+      throw UserError("types are nested more than " + std::to_string(kDeepest) + " deep");
+  }
+
+  std::vector<Ros2MessageType>& types_;
+  std::vector<int> height_;
+};
 
 }  // namespace
 
-std::vector<Ros2MessageType> parse_ros2_schema(std::string_view name, std::string_view text) {
-  std::vector<RawMessage> raw = split(name, text);
+std::vector<Ros2MessageType> parse_ros2_schema(std::string_view name, std::string_view text,
+                                               Allowance& allowance) {
+  const std::vector<RawMessage> raw = split(name, text, allowance);
+  const TypeIndex index(raw);
   std::vector<Ros2MessageType> types;
   for (const RawMessage& message : raw) {
     Ros2MessageType& type = types.emplace_back();
@@ -168,11 +248,10 @@ std::vector<Ros2MessageType> parse_ros2_schema(std::string_view name, std::strin
       Ros2Field& field = type.fields.emplace_back(raw_field.field);
       const auto built_in = kBuiltIn.find(raw_field.type);
       field.kind = built_in == kBuiltIn.end() ? Ros2Kind::kMessage : built_in->second;
-      if (field.kind == Ros2Kind::kMessage) field.message = find_type(raw, message, raw_field.type);
+      if (field.kind == Ros2Kind::kMessage) field.message = index.find(message, raw_field.type);
     }
   }
-  std::vector<char> open(types.size(), 0);
-  refuse_cycle(types, 0, open);
+  Measurer(types).measure(0);
   return types;
 }
 

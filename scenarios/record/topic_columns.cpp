@@ -18,7 +18,8 @@ constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 /// A place in the message that holds numbers, texts, named members or numbered elements.
 struct TopicColumns::Node {
-  std::string name;
+  const std::string* name = nullptr;  ///< null for a numbered element
+  std::size_t path_size = 0;          ///< letters of its column's name
   std::vector<double> numbers;
   std::vector<std::string> texts;
   bool is_text = false;
@@ -43,8 +44,7 @@ class TopicColumns::Input {
 
   template <class Number>
   Number get() {
-    const std::size_t alignment = std::min(sizeof(Number), most_alignment_);
-    at_ = (at_ + alignment - 1) / alignment * alignment;
+    align(sizeof(Number));
     std::array<std::uint8_t, sizeof(Number)> raw;
     std::memcpy(raw.data(), take(sizeof(Number)).data(), sizeof(Number));
     if (swapped_) std::reverse(raw.begin(), raw.end());
@@ -52,6 +52,14 @@ class TopicColumns::Input {
     std::memcpy(&value, raw.data(), sizeof value);
     return value;
   }
+
+  /// Leaves out numbers of so many bytes each.
+  void skip(std::size_t count, std::size_t size) {
+    align(size);
+    take(count * size);
+  }
+
+  std::size_t left() const { return bytes_.size() - std::min(at_, bytes_.size()); }
 
   std::string text() {
     const auto bytes = take(get<std::uint32_t>());
@@ -68,6 +76,11 @@ class TopicColumns::Input {
   }
 
  private:
+  void align(std::size_t size) {
+    const std::size_t alignment = std::min(size, most_alignment_);
+    at_ = (at_ + alignment - 1) / alignment * alignment;
+  }
+
   std::span<const std::uint8_t> take(std::size_t count) {
     if (at_ > bytes_.size() || count > bytes_.size() - at_) throw UserError("ends too early");
     const auto taken = bytes_.subspan(at_, count);
@@ -119,8 +132,8 @@ double read_number(Input& input, Ros2Kind kind) {
 
 }  // namespace
 
-TopicColumns::TopicColumns(std::vector<Ros2MessageType> types)
-    : types_(std::move(types)), root_(std::make_unique<Node>()) {
+TopicColumns::TopicColumns(const std::vector<Ros2MessageType>& types, Allowance& allowance)
+    : types_(types), allowance_(allowance), root_(std::make_unique<Node>()) {
   Ros2Field whole;
   whole.kind = Ros2Kind::kMessage;
   prepare_element(*root_, whole);
@@ -128,38 +141,56 @@ TopicColumns::TopicColumns(std::vector<Ros2MessageType> types)
 
 TopicColumns::~TopicColumns() = default;
 
+void TopicColumns::pay(std::size_t bytes) {
+  if (!allowance_.take(bytes)) throw UserError("the columns come to " + allowance_.refusal());
+}
+
+TopicColumns::Node& TopicColumns::add_child(Node& node, const std::string* name) {
+  constexpr std::size_t kStep = 6;  // `[1234]`; a dot and a name
+  const std::size_t path_size = node.path_size + (name == nullptr ? kStep : name->size() + 1);
+  pay(sizeof(Node) + 2 * path_size);  // in the list of names and in the map
+  Node& child = node.children.emplace_back();
+  child.name = name;
+  child.path_size = path_size;
+  return child;
+}
+
 void TopicColumns::prepare(Node& node, const Ros2Field& field) {
-  if (!field.is_sequence && !field.is_array) return prepare_element(node, field);
-  if (field.is_optional()) return prepare_element(node, field);
+  if ((!field.is_sequence && !field.is_array) || field.is_optional()) return prepare_element(node, field);
   node.is_numbered = true;
-  if (field.is_array) {
-    node.children.resize(std::min(field.length, kMostColumns));
-    for (Node& child : node.children) prepare_element(child, field);
-  }
+  if (!field.is_array) return;
+  for (std::size_t i = 0; i < std::min(field.length, kMostColumns); ++i) element(node, field, i);
 }
 
 void TopicColumns::prepare_element(Node& node, const Ros2Field& field) {
   if (field.kind != Ros2Kind::kMessage) {
     node.is_leaf = true;
     node.is_text = field.kind == Ros2Kind::kString;
+    const std::size_t cell = node.is_text ? sizeof(std::string) : sizeof(double);
+    pay(count_ * cell);
+    row_size_ += cell;
     return;
   }
-  for (const Ros2Field& member : types_[field.message].fields) {
-    Node& child = node.children.emplace_back();
-    child.name = member.name;
-    prepare(child, member);
-  }
+  for (const Ros2Field& member : types_[field.message].fields) prepare(add_child(node, &member.name), member);
 }
 
 void TopicColumns::add(std::span<const std::uint8_t> message) {
   Input input(message);
   Ros2Field whole;
   whole.kind = Ros2Kind::kMessage;
-  read_element(input, *root_, whole);
+  read_element(input, root_.get(), whole);
+  pay(row_size_);
   ++count_;
 }
 
-void TopicColumns::read_field(Input& input, Node& node, const Ros2Field& field) {
+/// The place of an element, made now if there was none.
+TopicColumns::Node* TopicColumns::element(Node& node, const Ros2Field& field, std::size_t index) {
+  if (index == node.children.size()) prepare_element(add_child(node, nullptr), field);
+  return &node.children[index];
+}
+
+/// @param node  null: read and forget
+void TopicColumns::read_field(Input& input, Node* node, const Ros2Field& field) {
   if (!field.is_sequence && !field.is_array) return read_element(input, node, field);
   const std::size_t length = field.is_array ? field.length : input.get<std::uint32_t>();
   if (field.is_optional()) {
@@ -167,32 +198,36 @@ void TopicColumns::read_field(Input& input, Node& node, const Ros2Field& field) 
     if (length == 1) read_element(input, node, field);
     return;
   }
-  for (std::size_t i = 0; i < length; ++i) {
-    if (i >= kMostColumns) {
-      skip_element(input, field);
-      continue;
-    }
-    if (i == node.children.size()) prepare_element(node.children.emplace_back(), field);
-    read_element(input, node.children[i], field);
-  }
+  if (field.element_size == 0) return;  // however many of nothing
+  if (length > input.left() / field.element_size) throw UserError("ends too early");
+  const std::size_t columns = node == nullptr ? 0 : std::min(length, kMostColumns);
+  for (std::size_t i = 0; i < columns; ++i) read_element(input, element(*node, field, i), field);
+  skip(input, field, length - columns);
 }
 
-void TopicColumns::skip_element(Input& input, const Ros2Field& field) {
-  Node nowhere;
-  prepare_element(nowhere, field);
-  read_element(input, nowhere, field);
+void TopicColumns::skip(Input& input, const Ros2Field& field, std::size_t count) {
+  if (count == 0) return;
+  if (field.kind == Ros2Kind::kTime) return input.skip(2 * count, sizeof(std::int32_t));
+  if (field.kind != Ros2Kind::kMessage && field.kind != Ros2Kind::kString)
+    return input.skip(count, field.element_size);
+  for (std::size_t i = 0; i < count; ++i) read_element(input, nullptr, field);
 }
 
-void TopicColumns::read_element(Input& input, Node& node, const Ros2Field& field) {
+void TopicColumns::read_element(Input& input, Node* node, const Ros2Field& field) {
   if (field.kind == Ros2Kind::kMessage) {
     const std::vector<Ros2Field>& members = types_[field.message].fields;
-    for (std::size_t i = 0; i < members.size(); ++i) read_field(input, node.children[i], members[i]);
+    for (std::size_t i = 0; i < members.size(); ++i)
+      read_field(input, node == nullptr ? nullptr : &node->children[i], members[i]);
   } else if (field.kind == Ros2Kind::kString) {
-    node.texts.resize(count_);
-    node.texts.push_back(input.text());
+    std::string text = input.text();
+    if (node == nullptr) return;
+    node->texts.resize(count_);
+    node->texts.push_back(std::move(text));
   } else {
-    node.numbers.resize(count_, kAbsent);
-    node.numbers.push_back(read_number(input, field.kind));
+    const double number = read_number(input, field.kind);
+    if (node == nullptr) return;
+    node->numbers.resize(count_, kAbsent);
+    node->numbers.push_back(number);
   }
 }
 
@@ -202,7 +237,7 @@ void TopicColumns::collect(Node& node, const std::string& path, Output& output) 
   for (std::size_t i = 0; i < node.children.size(); ++i) {
     Node& child = node.children[i];
     const std::string step =
-        node.is_numbered ? "[" + std::to_string(i) + "]" : (path.empty() ? "" : ".") + child.name;
+        node.is_numbered ? "[" + std::to_string(i) + "]" : (path.empty() ? "" : ".") + *child.name;
     collect(child, path + step, output);
   }
 }

@@ -98,6 +98,28 @@ TEST_F(IncludeTest, RefusesACircle) {
                                  "\": the files include each other in a circle");
 }
 
+TEST_F(IncludeTest, RefusesFilesThatDoubleEachOther) {
+  constexpr int kFiles = 40;  // 2^40 readings
+  for (int i = 0; i < kFiles; ++i) {
+    const std::string next = "\"" + std::to_string(i + 1) + ".toml\"";
+    file(std::to_string(i) + ".toml", "include = [" + next + ", " + next + "]\n");
+  }
+  file(std::to_string(kFiles) + ".toml", "x = 1\n");
+  EXPECT_THAT(error("0.toml"),
+              HasSubstr(": more than 256 files would be read, each as often as it is included"));
+}
+
+TEST_F(IncludeTest, ReadsAsManyFilesAsAnyoneHas) {
+  std::string names;
+  for (int i = 0; i < 255; ++i) {
+    const std::string name = "part_" + std::to_string(i) + ".toml";
+    file(name, "x_" + std::to_string(i) + " = 1\n");
+    names += "\"" + name + "\", ";
+  }
+  file("a.toml", "include = [" + names + "]\n");
+  EXPECT_EQ(load("a.toml").size(), 255U);
+}
+
 TEST_F(IncludeTest, SaysWhoAskedForAMissingFile) {
   const std::string a = file("a.toml", "include = [\"b.toml\"]\n");
   EXPECT_EQ(error("a.toml"), a + ":1:12: " + (root_ / "b.toml").string() +

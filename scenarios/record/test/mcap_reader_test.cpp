@@ -38,6 +38,12 @@ std::string zstd_chunk(const std::string& records) {
   return chunk(7, 9, compressed(records), crc(records), "zstd", records.size());
 }
 
+/// A chunk of a few hundred bytes: records of a kind that nobody knows, without content.
+std::string chunk_of_zeros(std::size_t records) {
+  const std::string zeros(9 * records, '\0');
+  return chunk(0, 0, compressed(zeros), 0, "zstd", zeros.size());
+}
+
 struct FileCase {
   const char* name;
   std::string bytes;
@@ -110,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Forms, McapFormTest, ::testing::ValuesIn(forms()),
 struct WrongCase {
   const char* name;
   std::string bytes;
-  const char* message;
+  std::string message;
 };
 
 std::vector<WrongCase> wrong_files() {
@@ -130,6 +136,11 @@ std::vector<WrongCase> wrong_files() {
        "byte 37: a chunk has another size than it says"},
       {"HugeChunk", start + chunk(7, 7, compressed(records), 0, "zstd", std::uint64_t{1} << 60),
        "byte 37: a chunk claims 1152921504606846976 bytes"},
+      {"MoreThanCompressionCan", start + chunk(7, 7, compressed("few"), 0, "zstd", 1u << 20),
+       "byte 37: a chunk claims 1048576 bytes, compressed to 12"},
+      {"SmallFileOfMuch", start + chunk_of_zeros(1000000) + chunk_of_zeros(1000000),
+       "byte " + std::to_string((start + chunk_of_zeros(1000000)).size()) +
+           ": what is in its chunks comes to more than 16 MiB in memory, too much for a file of "},
       {"ChunkInChunk", start + chunk(7, 7, chunk(7, 7, "", 0), 0), "byte 37: a chunk lies inside a chunk"},
       {"CutInsideChunk", start + chunk(7, 7, records.substr(0, records.size() - 1), 0),
        "byte 37: a chunk ends inside a record"},
@@ -160,6 +171,17 @@ TEST(McapReaderTest, NamesAFileThatIsMissing) {
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "/nowhere/flight.mcap: cannot be opened: there is no such file");
   }
+}
+
+TEST(McapReaderTest, ReadsAChunkThatIsNearlyNothingCompressed) {
+  EXPECT_TRUE(McapReader(file_with(magic() + header() + chunk_of_zeros(1000000))).messages().empty());
+}
+
+TEST(McapReaderTest, CountsWhatSmallRecordsBecome) {
+  std::string records = kNames;
+  for (int i = 0; i < 300000; ++i) records += message(3, 0, 7, "");
+  EXPECT_LT(records.size(), 10'000'000u);
+  EXPECT_THROW(McapReader(file_with(magic() + zstd_chunk(records))), std::runtime_error);
 }
 
 TEST(McapReaderTest, GivesHeaderChannelsAndMetadata) {

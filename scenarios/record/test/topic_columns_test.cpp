@@ -33,7 +33,9 @@ struct Columns {
 };
 
 Columns decode(const std::string& schema_text, const std::vector<std::string>& messages) {
-  TopicColumns topic(parse_ros2_schema("some_msgs/msg/Root", schema_text));
+  Allowance allowance(schema_text.size());
+  const std::vector<Ros2MessageType> types = parse_ros2_schema("some_msgs/msg/Root", schema_text, allowance);
+  TopicColumns topic(types, allowance);
   for (const std::string& message : messages) {
     topic.add({reinterpret_cast<const std::uint8_t*>(message.data()), message.size()});
   }
@@ -128,9 +130,57 @@ TEST(TopicColumnsTest, KeepsPicturesOutOfTheColumns) {
   EXPECT_THAT(columns.numbers.at("after"), ElementsAre(9));
 }
 
+TEST(TopicColumnsTest, PassesOverWhatBecomesNoColumn) {
+  const std::string many = u32(4097);
+  const Columns columns = decode(
+      "float64[] a\nbuiltin_interfaces/Time[] b\nP[] c\nstring[] d\nuint16 after\n====\nMSG: "
+      "some_msgs/P\nuint8 x\nuint8[] y\n",
+      {kLittle + many + pad(4) + std::string(4097 * 8, '\1') + many + std::string(4097 * 8, '\1') + many +
+       [] {
+         std::string points;
+         for (int i = 0; i < 4097; ++i) points += u8(3) + pad(3) + u32(4) + std::string(4, '\1');
+         return points;
+       }() +
+       many + std::string(4097 * 4, '\0') + u16(9)});
+  EXPECT_THAT(columns.numbers.at("after"), ElementsAre(9));
+  EXPECT_THAT(columns.numbers.at("c[4095].y[3]"), ElementsAre(1));
+  EXPECT_FALSE(columns.numbers.contains("c[4096].x"));
+}
+
+TEST(TopicColumnsTest, ReadsNothingOfWhatHasNoMembersHoweverMany) {
+  const Columns columns = decode(
+      "Empty[18446744073709551615] many\nEmpty[] some\nEmpty[<=1] maybe\nfloat64[0] none\nuint8 after\n"
+      "====\nMSG: some_msgs/Empty\nuint8 CONSTANT=1\n",
+      {kLittle + u32(0xFFFFFFFF) + u32(1) + u8(9)});
+  EXPECT_THAT(columns.fields, ElementsAre("after"));
+  EXPECT_THAT(columns.numbers.at("after"), ElementsAre(9));
+}
+
+/// `depth` types, each of which holds the next one twice, and the last the field `last`.
+std::string doubling(int depth, const std::string& last) {
+  std::string text;
+  for (int i = 0; i < depth; ++i) {
+    const std::string next = "T" + std::to_string(i);
+    text += next + " a\n" + next + " b\n====\nMSG: some_msgs/" + next + "\n";
+  }
+  return text + last;
+}
+
+TEST(TopicColumnsTest, ReadsNothingOfStructsWithoutMembersThatDouble) {
+  EXPECT_THAT(decode(doubling(60, ""), {kLittle}).fields, ElementsAre());
+}
+
+TEST(TopicColumnsTest, RefusesMessagesThatFillFarMoreThanTheyAre) {
+  std::vector<std::string> messages{kLittle + u32(4096) + std::string(4096, '\1')};
+  for (int i = 0; i < 100; ++i) messages.push_back(kLittle + u32(0));
+  EXPECT_EQ(decode("uint8[] data\n", messages).numbers.at("data[4095]").size(), 101u);
+  for (int i = 0; i < 500; ++i) messages.push_back(kLittle + u32(0));
+  EXPECT_THROW(decode("uint8[] data\n", messages), std::runtime_error);
+}
+
 struct WrongMessageCase {
   const char* name;
-  const char* schema;
+  std::string schema;
   std::string message;
   const char* reason;
 };
@@ -147,20 +197,32 @@ TEST_P(WrongMessageTest, IsRefusedWithItsReason) {
 
 INSTANTIATE_TEST_SUITE_P(
     Messages, WrongMessageTest,
-    ::testing::Values(WrongMessageCase{"NoHeader", "bool a\n", "\0", "is shorter than its header"},
-                      WrongMessageCase{"UnknownEncoding", "bool a\n", std::string("\0\3\0\0\1", 5),
-                                       "has an unknown encoding"},
-                      WrongMessageCase{"TooShort", "float64 a\n", kLittle + u32(1), "ends too early"},
-                      WrongMessageCase{"TooLongText", "string a\n", kLittle + u32(0xFFFFFFFF) + "x",
-                                       "ends too early"},
-                      WrongMessageCase{"TwoOfOne", "bool[<=1] a\n", kLittle + u32(2) + u8(1) + u8(1),
-                                       "has 2 elements in a"},
-                      WrongMessageCase{"UnknownType", "Point p\n", kLittle,
-                                       "type Point of a field of some_msgs/Root is not defined"},
-                      WrongMessageCase{"NoName", "float64\n", kLittle, "no field name in 'float64'"},
-                      WrongMessageCase{"NoLength", "float64[x] a\n", kLittle, "no length in 'float64[x] a'"},
-                      WrongMessageCase{"Endless", "A a\n====\nMSG: some_msgs/A\nA a\n", kLittle,
-                                       "type some_msgs/A contains itself"}),
+    ::testing::Values(
+        WrongMessageCase{"NoHeader", "bool a\n", "\0", "is shorter than its header"},
+        WrongMessageCase{"UnknownEncoding", "bool a\n", std::string("\0\3\0\0\1", 5),
+                         "has an unknown encoding"},
+        WrongMessageCase{"TooShort", "float64 a\n", kLittle + u32(1), "ends too early"},
+        WrongMessageCase{"TooLongText", "string a\n", kLittle + u32(0xFFFFFFFF) + "x", "ends too early"},
+        WrongMessageCase{"TwoOfOne", "bool[<=1] a\n", kLittle + u32(2) + u8(1) + u8(1),
+                         "has 2 elements in a"},
+        WrongMessageCase{"UnknownType", "Point p\n", kLittle,
+                         "type Point of a field of some_msgs/Root is not defined"},
+        WrongMessageCase{"NoName", "float64\n", kLittle, "no field name in 'float64'"},
+        WrongMessageCase{"NoLength", "float64[x] a\n", kLittle, "no length in 'float64[x] a'"},
+        WrongMessageCase{"CutShortInLongArray", "float64[1000000000000] a\n", kLittle + u32(1),
+                         "ends too early"},
+        WrongMessageCase{"ArrayOfArrays",
+                         "A[4000] a\n====\nMSG: some_msgs/A\nB[<=1] b\n====\nMSG: "
+                         "some_msgs/B\nfloat64[4000] c\n",
+                         kLittle, "the columns come to more than 16 MiB in memory"},
+        WrongMessageCase{"Doubling", doubling(60, "bool a\n"), kLittle,
+                         "the columns come to more than 16 MiB in memory"},
+        WrongMessageCase{"TooDeep", doubling(64, "bool a\n"), kLittle, "types are nested more than 64 deep"},
+        WrongMessageCase{"LongNameOfMany",
+                         "A[4096] " + std::string(4000, 'a') + "\n====\nMSG: some_msgs/A\nbool b\n", kLittle,
+                         "the columns come to more than"},
+        WrongMessageCase{"Endless", "A a\n====\nMSG: some_msgs/A\nA a\n", kLittle,
+                         "type some_msgs/A contains itself"}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
