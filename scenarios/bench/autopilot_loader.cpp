@@ -4,8 +4,10 @@
 
 #include "scenarios/bench/autopilot_slots.hpp"
 #include "scenarios/bench/module_rules.hpp"
+#include "scenarios/bench/tick_rules.hpp"
 #include "scenarios/config/include.hpp"
 #include "scenarios/config/nearest_name.hpp"
+#include "scenarios/config/shortest.hpp"
 #include "scenarios/config/toml_reader.hpp"
 
 namespace ironbird::scenarios {
@@ -112,12 +114,17 @@ class AutopilotReader {
   void check_period(autopilot::Time period, const std::string& path) {
     const auto tick = loaded_.scenario.fcu.tick;
     if (tick.count() <= 0 || period.count() % tick.count() == 0) return;
-    const double below =
-        static_cast<double>(period.count() / tick.count()) * static_cast<double>(tick.count()) * 1e-6;
-    const double step = static_cast<double>(tick.count()) * 1e-6;
-    report(path + ".period = " + std::to_string(static_cast<double>(period.count()) * 1e-6) +
-           " ms: must be a multiple of the tick; the nearest are " + std::to_string(below) + " ms and " +
-           std::to_string(below + step) + " ms");
+    const auto in_milliseconds = [](autopilot::Time time) {
+      return shortest(static_cast<double>(time.count()) / 1e6) + " ms";
+    };
+    const std::string shown = path + ".period = " + in_milliseconds(period);
+    if (tick_is_to_blame(loaded_, path + ".period")) {
+      return report("fcu.tick = " + in_milliseconds(tick) + ": must divide " + shown + " (" +
+                    loaded_.places.at(path + ".period") + ")");
+    }
+    const autopilot::Time below = period / tick * tick;
+    report(shown + ": must be a multiple of the tick; the nearest are " + in_milliseconds(below) + " and " +
+           in_milliseconds(below + tick));
   }
 
   void set_environment(ParameterTable& parameters, const std::string& slot, ModuleSettings& settings) {

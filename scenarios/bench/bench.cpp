@@ -10,6 +10,7 @@
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/bench/world_maker.hpp"
+#include "scenarios/requirements/number_text.hpp"
 
 namespace ironbird::scenarios {
 
@@ -204,8 +205,8 @@ void Bench::publish_events(Time now) {
 Verdict Bench::finish(double wall_seconds) {
   const double lost = rig_ ? to_seconds(rig_->lost()) * scenario_.fcu.time_scale : 0.0;
   if (lost > kGreatestLoss) {
-    broken_promises_.push_back("this machine was too slow: the run fell " + std::to_string(lost) +
-                               " s behind the unit");
+    broken_promises_.push_back("this machine was too slow: the run fell " + with_unit(lost, "s") +
+                               " behind the unit");
   }
   if (interrupted_) broken_promises_.emplace_back("the run was interrupted");
   Verdict verdict = judge_->finish({loaded_.name, scenario_.title, scenario_.seed, loaded_.digest},

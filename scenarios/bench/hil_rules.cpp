@@ -46,7 +46,7 @@ class HilRules {
     }
   }
 
-  void report(const std::string& finding) { findings_.push_back(loaded_.located(finding)); }
+  void report(const std::string& finding) { findings_.push_back(finding); }
 
   const LoadedScenario& loaded_;
   const FcuConfig& fcu_;

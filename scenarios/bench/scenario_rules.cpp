@@ -14,6 +14,7 @@
 #include "scenarios/bench/hil_rules.hpp"
 #include "scenarios/bench/live_rules.hpp"
 #include "scenarios/bench/model_files.hpp"
+#include "scenarios/bench/tick_rules.hpp"
 #include "scenarios/config/nearest_name.hpp"
 
 namespace ironbird::scenarios {
@@ -41,6 +42,7 @@ class Rules {
     check_field();
     check_start();
     check_waypoints();
+    report_all(tick_findings(loaded_));
     report_all(hil_findings(loaded_));
     check_cameras();
     check_snapshots();

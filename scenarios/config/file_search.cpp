@@ -39,6 +39,10 @@ fs::path find_named(const std::string& name, const std::vector<fs::path>& folder
   return {};
 }
 
+fs::path library_folder() {
+  return fs::path(IRONBIRD_TREE) / "scenarios/library";
+}
+
 fs::path readable(const fs::path& path) {
   const fs::path relative = path.lexically_relative(fs::current_path());
   return relative.empty() || *relative.begin() == ".." ? path : relative;

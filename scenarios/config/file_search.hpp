@@ -18,6 +18,9 @@ std::vector<std::filesystem::path> search_folders(const std::filesystem::path& n
 std::filesystem::path find_named(const std::string& name, const std::vector<std::filesystem::path>& folders,
                                  const std::string& inner = "");
 
+/// Where the scenarios that ship are.
+std::filesystem::path library_folder();
+
 /// The path as a reader would write it: from the working folder when it lies below it.
 std::filesystem::path readable(const std::filesystem::path& path);
 

@@ -1,10 +1,13 @@
 #include "scenarios/config/quantity.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace ironbird::scenarios {
 namespace {
@@ -202,9 +205,38 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+/// What people write, as the units that a message offers beside the one that is declared.
+constexpr std::string_view kUsual[] = {
+    "m",   "mm",  "cm",    "km",    "m/s", "km/h", "kg", "g",   "s",   "ms",  "us",   "min",
+    "h",   "Hz",  "kHz",   "A",     "mA",  "A*s",  "C",  "mAh", "Ah",  "K",   "degC", "rad",
+    "deg", "rev", "rad/s", "deg/s", "rpm", "N",    "Pa", "hPa", "kPa", "bar", "mbar", "J",
+    "Wh",  "W",   "V",     "mV",    "Ohm", "mOhm", "F",  "H",   "T",   "mT",  "uT",   "gauss"};
+
+bool is_dimension_of(const Unit& unit, std::string_view of) {
+  return unit.same_dimension(parse_unit(of));
+}
+
+/// The units that a quantity can be given in: "rad, deg or rev", "s, ms, us, min, h or Hz (its rate)".
+std::string units_for(std::string_view needed) {
+  const Unit wanted = parse_unit(needed);
+  std::vector<std::string> units{std::string(needed)};
+  if (std::find(std::begin(kUsual), std::end(kUsual), needed) != std::end(kUsual)) {
+    for (const std::string_view usual : kUsual) {
+      if (usual != needed && is_dimension_of(wanted, usual)) units.emplace_back(usual);
+    }
+  } else if (needed.starts_with("rad/")) {
+    units.push_back("deg" + std::string(needed.substr(3)));
+  }
+  if (is_dimension_of(wanted, "s")) units.emplace_back("Hz (its rate)");
+  if (is_dimension_of(wanted, "Hz")) units.emplace_back("s (its period)");
+  std::string text = units.front();
+  for (std::size_t i = 1; i < units.size(); ++i) text += (i + 1 < units.size() ? ", " : " or ") + units[i];
+  return text;
+}
+
 std::string needs(std::string_view needed) {
   if (needed.empty()) return "needs a unit";
-  return needed == "1" ? "needs a number without unit" : "needs " + std::string(needed);
+  return needed == "1" ? "needs a number without unit, or %" : "needs " + units_for(needed);
 }
 
 double convert(double value, const Unit& from, const Unit& to) {
@@ -230,7 +262,7 @@ double parse_quantity(std::string_view text, std::string_view needed) {
   if (result.ec != std::errc()) {
     throw QuantityError(
         "found '" + std::string(text) + "', " +
-        (needed.empty() || needed == "1" ? "needs a number" : "needs a number of " + std::string(needed)));
+        (needed.empty() || needed == "1" ? "needs a number" : "needs a number of " + units_for(needed)));
   }
   const std::string_view unit_text = trimmed({result.ptr, static_cast<std::size_t>(end - result.ptr)});
   if (unit_text.empty()) return value;

@@ -38,7 +38,7 @@ Unit parse_unit(std::string_view text);
 /// Reads `25 deg`, `400 Hz`, `0.5 ms`, and gives the number in `needed`, a unit as in `describe`. A number
 /// alone is in `needed` already. A rate given for a time becomes its period, and the reverse. With `needed`
 /// empty any unit goes and the result is in SI units.
-/// @throws QuantityError such as "found 'deg', needs m/s"
+/// @throws QuantityError such as "found 'deg', needs m/s or km/h"
 double parse_quantity(std::string_view text, std::string_view needed);
 
 }  // namespace ironbird::scenarios

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenarios/config/config_error.hpp"
+#include "scenarios/config/file_search.hpp"
 #include "scenarios/config/nearest_name.hpp"
 
 namespace ironbird::scenarios {
@@ -27,12 +28,30 @@ std::string neighbour(const fs::path& file) {
   return nearest.empty() ? "" : (file.parent_path() / (nearest + ".toml")).string();
 }
 
+/// The scenario of the library whose name is nearest to that of `file`, or nothing.
+std::string in_library(const fs::path& file) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(library_folder(), error), end; !error && at != end;
+       at.increment(error)) {
+    if (at->path().extension() == ".toml") files.push_back(at->path());
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<std::string> names;
+  for (const fs::path& known : files) names.push_back(known.stem().string());
+  const std::string nearest = nearest_name(file.stem().string(), names);
+  const auto found = std::find(names.begin(), names.end(), nearest);
+  return found == names.end() ? ""
+                              : readable(files[static_cast<std::size_t>(found - names.begin())]).string();
+}
+
 /// Why the file cannot be taken, or nothing.
 std::string complaint(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) {
-    const std::string nearest = neighbour(file);
+    const std::string beside = neighbour(file);
+    const std::string nearest = beside.empty() ? in_library(file) : beside;
     return "cannot be opened: there is no such file" +
            (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
   }

@@ -1,8 +1,6 @@
 #include "scenarios/config/toml_reader.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -10,6 +8,7 @@
 
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/config/quantity.hpp"
+#include "scenarios/config/shortest.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -17,24 +16,41 @@ namespace {
 /// How far a quaternion's norm may be from one: what six written digits leave.
 constexpr double kUnitNorm = 1e-5;
 
-std::string shortest(double value) {
-  std::array<char, 32> text;
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), result.ptr};
+/// A real number as a file has it: the library that prints nodes writes -3.9 as -3.8999999999999999.
+std::string written(double value) {
+  const std::string text = shortest(value);
+  const bool looks_whole = text.find_first_not_of("-0123456789") == std::string::npos;
+  return looks_whole ? text + ".0" : text;
+}
+
+/// The node on one line.
+std::string inlined(const toml::node& node) {
+  if (const auto* number = node.as_floating_point()) return written(number->get());
+  std::ostringstream stream;
+  if (const toml::table* table = node.as_table()) {
+    const char* between = " ";
+    for (const auto& [key, value] : *table) {
+      stream << between << key.str() << " = " << inlined(value);
+      between = ", ";
+    }
+    return table->empty() ? "{}" : "{" + stream.str() + " }";
+  }
+  if (const toml::array* array = node.as_array()) {
+    const char* between = " ";
+    for (const toml::node& element : *array) {
+      stream << between << inlined(element);
+      between = ", ";
+    }
+    return array->empty() ? "[]" : "[" + stream.str() + " ]";
+  }
+  node.visit([&](const auto& value) { stream << value; });
+  return stream.str();
 }
 
 /// The node as it stands in the file, cut when long.
 std::string shown(const toml::node& node) {
   constexpr std::size_t kMost = 60;
-  std::ostringstream stream;
-  if (const toml::table* table = node.as_table()) {
-    toml::table inlined = *table;
-    inlined.is_inline(true);
-    stream << inlined;
-  } else {
-    node.visit([&](const auto& value) { stream << value; });
-  }
-  std::string text = stream.str();
+  std::string text = inlined(node);
   std::replace(text.begin(), text.end(), '\n', ' ');
   if (text.size() <= kMost) return text;
   std::size_t cut = kMost;
@@ -107,12 +123,33 @@ void TomlReader::report_no_tables(const toml::node& node, const std::string& pat
                          : "must be an array of tables, each written " + header);
 }
 
-void TomlReader::report_unknown(const toml::table& table, const std::string& path,
-                                const std::vector<std::string>& known) {
+bool TomlReader::has_unknown(const toml::table& table, const std::vector<std::string>& known) {
+  return std::any_of(table.begin(), table.end(), [&](const auto& entry) {
+    return std::find(known.begin(), known.end(), entry.first.str()) == known.end();
+  });
+}
+
+std::string TomlReader::meant(std::string_view key, const Keys& keys) {
+  const auto inner_name = [](const std::string& full) { return full.substr(full.find('.') + 1); };
+  // A member's own member, given a table too high, is spelt right; a near name is a guess.
+  std::vector<std::string> inner_names;
+  for (const std::string& full : keys.inner) {
+    if (inner_name(full) == key) return full;
+    inner_names.push_back(inner_name(full));
+  }
+  std::string nearest = nearest_name(key, keys.known);
+  if (!nearest.empty()) return nearest;
+  nearest = nearest_name(key, inner_names);
+  const auto found = std::find(inner_names.begin(), inner_names.end(), nearest);
+  return nearest.empty() ? "" : keys.inner[static_cast<std::size_t>(found - inner_names.begin())];
+}
+
+void TomlReader::report_unknown(const toml::table& table, const std::string& path, const Keys& keys) {
+  const std::vector<std::string>& known = keys.known;
   for (const auto& [key, node] : table) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
     std::string what = "unknown key";
-    const std::string nearest = nearest_name(key.str(), known);
+    const std::string nearest = meant(key.str(), keys);
     if (!nearest.empty()) {
       what += ", did you mean '" + nearest + "'?";
     } else {

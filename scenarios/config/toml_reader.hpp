@@ -38,9 +38,12 @@ class TomlReader {
   template <class T>
   void read(const toml::table& table, T& value, const std::string& path = "",
             std::initializer_list<std::string_view> also_known = {}) {
-    std::vector<std::string> known(also_known.begin(), also_known.end());
-    T::describe(value, Member{*this, table, path, known});
-    report_unknown(table, path, known);
+    Keys keys{{also_known.begin(), also_known.end()}, {}};
+    T::describe(value, Member{*this, table, path, keys.known});
+    if (has_unknown(table, keys.known)) {
+      T::describe(value, InnerKeys{keys.inner});
+      report_unknown(table, path, keys);
+    }
   }
 
   /// Fills one value of any described kind.
@@ -53,6 +56,12 @@ class TomlReader {
   void finish() const;
 
  private:
+  /// What a table may hold.
+  struct Keys {
+    std::vector<std::string> known;
+    std::vector<std::string> inner;  ///< of its members' members, as `geodetic.latitude`
+  };
+
   struct Member {
     TomlReader& reader;
     const toml::table& table;
@@ -66,6 +75,30 @@ class TomlReader {
       const toml::node* node = table.get(name);
       if (node == nullptr) return;
       reader.read_value(*node, value, {unit, lower, upper}, path.empty() ? name : path + "." + name);
+    }
+  };
+
+  /// Collects the names of the members of described members.
+  struct InnerKeys {
+    std::vector<std::string>& keys;
+
+    template <class T, class... Rest>
+    void operator()(const char* name, T&, const Rest&...) const {
+      if constexpr (IsOptional<T>::value) {
+        add<typename T::value_type>(name);
+      } else {
+        add<T>(name);
+      }
+    }
+
+   private:
+    template <class T>
+    void add(const char* name) const {
+      if constexpr (Described<T>) {
+        const T any{};
+        T::describe(
+            any, [&](const char* inner, const auto&...) { keys.push_back(std::string(name) + "." + inner); });
+      }
     }
   };
 
@@ -93,8 +126,10 @@ class TomlReader {
                               const std::string& path);
   std::optional<std::string> name(const toml::node& node, const std::string& path,
                                   const std::vector<std::string>& names);
-  void report_unknown(const toml::table& table, const std::string& path,
-                      const std::vector<std::string>& known);
+  static bool has_unknown(const toml::table& table, const std::vector<std::string>& known);
+  /// The known key that was probably meant, or nothing.
+  static std::string meant(std::string_view key, const Keys& keys);
+  void report_unknown(const toml::table& table, const std::string& path, const Keys& keys);
   void report(const toml::node& node, const std::string& path, const std::string& what);
   /// Says which form is right where a table, or an array of tables, was not found.
   void report_no_table(const toml::node& node, const std::string& path);

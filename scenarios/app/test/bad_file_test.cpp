@@ -15,6 +15,16 @@ TEST(BadFileTest, MissingScenarioIsNamed) {
   EXPECT_EQ(said.text, "/nowhere/at_all.toml: cannot be opened: there is no such file\n");
 }
 
+TEST(BadFileTest, MissingScenarioThatIsInTheLibraryIsFound) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "three_waypoint.toml").string();
+  const Said said = run_shell(kProgram + " run " + file);
+  EXPECT_EQ(said.exit_code, 2);
+  EXPECT_EQ(said.text, file +
+                           ": cannot be opened: there is no such file; did you mean "
+                           "'scenarios/library/paper/three_waypoints.toml'?\n");
+}
+
 TEST(BadFileTest, AllFindingsAreToldAtOnce) {
   const TemporaryFolder folder;
   const std::string file = folder.write("bad.toml", std::string("duratoin = 3\nseed = -1\n") + kMission);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <sstream>
+#include <string>
 
 namespace ironbird::scenarios {
 namespace {
@@ -66,21 +68,28 @@ TEST_P(WrongQuantityTest, IsRefusedWithWhatIsNeeded) {
 
 INSTANTIATE_TEST_SUITE_P(
     Quantities, WrongQuantityTest,
-    ::testing::Values(WrongCase{"25 deg", "m/s", "found 'deg', needs m/s"},
-                      WrongCase{"5 m", "1", "found 'm', needs a number without unit"},
-                      WrongCase{"5 Hz", "rad/s", "found 'Hz', needs rad/s"},
-                      WrongCase{"5 1/m", "m", "found '1/m', needs m"},
-                      WrongCase{"fast", "m/s", "found 'fast', needs a number of m/s"},
-                      WrongCase{"", "1", "found '', needs a number"},
-                      WrongCase{"+-5 m", "m", "found '+-5 m', needs a number of m"},
-                      WrongCase{"0 Hz", "s", "found '0 Hz', which has no reciprocal"},
-                      WrongCase{"5 parsec", "m", "found 'parsec' ('parsec' is no unit), needs m"},
-                      WrongCase{"5 m^x", "m", "found 'm^x' ('x' is no power), needs m"},
-                      WrongCase{"5 m^0.3", "m", "found 'm^0.3' ('0.3' is no power), needs m"},
-                      WrongCase{"5 m/(s", "m", "found 'm/(s' (')' is missing), needs m"},
-                      WrongCase{"5 m)", "m", "found 'm)' (')' is left over), needs m"},
-                      WrongCase{"5 m/", "m", "found 'm/' ('' is no unit), needs m"},
-                      WrongCase{"5 ((((((((((m", "m", "found '((((((((((m' (too many parentheses), needs m"}),
+    ::testing::Values(
+        WrongCase{"25 deg", "m/s", "found 'deg', needs m/s or km/h"},
+        WrongCase{"5 m", "1", "found 'm', needs a number without unit, or %"},
+        WrongCase{"5 Hz", "rad/s", "found 'Hz', needs rad/s, deg/s or rpm"},
+        WrongCase{"5 m", "rad", "found 'm', needs rad, deg or rev"},
+        WrongCase{"5 m", "rad/s^2", "found 'm', needs rad/s^2 or deg/s^2"},
+        WrongCase{"5 m", "s", "found 'm', needs s, ms, us, min, h or Hz (its rate)"},
+        WrongCase{"5 m", "Hz", "found 'm', needs Hz, kHz or s (its period)"},
+        WrongCase{"5 m", "N*m", "found 'm', needs N*m"},
+        WrongCase{"north", "rad", "found 'north', needs a number of rad, deg or rev"},
+        WrongCase{"5 1/m", "m", "found '1/m', needs m, mm, cm or km"},
+        WrongCase{"fast", "m/s", "found 'fast', needs a number of m/s or km/h"},
+        WrongCase{"", "1", "found '', needs a number"},
+        WrongCase{"+-5 m", "m", "found '+-5 m', needs a number of m, mm, cm or km"},
+        WrongCase{"0 Hz", "s", "found '0 Hz', which has no reciprocal"},
+        WrongCase{"5 parsec", "m", "found 'parsec' ('parsec' is no unit), needs m, mm, cm or km"},
+        WrongCase{"5 m^x", "m", "found 'm^x' ('x' is no power), needs m, mm, cm or km"},
+        WrongCase{"5 m^0.3", "m", "found 'm^0.3' ('0.3' is no power), needs m, mm, cm or km"},
+        WrongCase{"5 m/(s", "m", "found 'm/(s' (')' is missing), needs m, mm, cm or km"},
+        WrongCase{"5 m)", "m", "found 'm)' (')' is left over), needs m, mm, cm or km"},
+        WrongCase{"5 m/", "m", "found 'm/' ('' is no unit), needs m, mm, cm or km"},
+        WrongCase{"5 ((((((((((m", "m", "found '((((((((((m' (too many parentheses), needs m, mm, cm or km"}),
     [](const auto& test) { return "Case" + std::to_string(test.index); });
 
 TEST(QuantityConversionTest, IsExactWhereADecimalIs) {
@@ -89,6 +98,27 @@ TEST(QuantityConversionTest, IsExactWhereADecimalIs) {
   EXPECT_EQ(parse_quantity("2.3 ms", "s"), 0.0023);
   EXPECT_EQ(parse_quantity("400 Hz", "s"), 0.0025);
   EXPECT_EQ(parse_quantity("1013.25 hPa", "Pa"), 101325.0);
+}
+
+TEST(QuantityConversionTest, TakesEveryUnitThatARefusalOffers) {
+  for (const char* needed : {"m",     "m/s",     "kg", "s",  "Hz", "1/s", "A", "C",   "A*s", "K", "rad",
+                             "rad/s", "rad/s^2", "N",  "Pa", "J",  "W",   "V", "Ohm", "F",   "H", "T"}) {
+    std::string said;
+    try {
+      parse_quantity("1 kg^3", needed);
+    } catch (const QuantityError& error) {
+      said = error.what();
+    }
+    std::istringstream words(said.substr(said.find("needs ") + 6));
+    int offered = 0;
+    for (std::string word; words >> word;) {
+      if (word == "or" || word.starts_with("(") || word.ends_with(")")) continue;
+      if (word.ends_with(",")) word.pop_back();
+      EXPECT_NO_THROW(parse_quantity("1 " + word, needed)) << said;
+      ++offered;
+    }
+    EXPECT_GT(offered, 0) << needed;
+  }
 }
 
 }  // namespace

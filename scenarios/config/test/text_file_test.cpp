@@ -55,6 +55,14 @@ TEST_F(TextFileTest, NamesTheFileThatWasMeant) {
   EXPECT_THAT(refusal("/nowhere/at_all.toml"), ::testing::EndsWith("there is no such file"));
 }
 
+TEST_F(TextFileTest, NamesTheScenarioOfTheLibraryWhenNoneBesideItIsNear) {
+  for (const std::string name : {"three_waypoint.toml", "three_waypoints", "papre/three_waypoints.toml"}) {
+    EXPECT_THAT(refusal(folder_ / name),
+                ::testing::EndsWith("scenarios/library/paper/three_waypoints.toml'?"))
+        << name;
+  }
+}
+
 TEST_F(TextFileTest, RefusesWhatIsNoFile) {
   EXPECT_THAT(refusal(folder_), HasSubstr("is a folder, must be a TOML file"));
   EXPECT_THAT(refusal("/dev/null"), HasSubstr("is no regular file"));

@@ -163,12 +163,22 @@ INSTANTIATE_TEST_SUITE_P(
         FindingCase{"level = nan", "x.toml:1:9: level = nan: must be finite"},
         FindingCase{"level = -inf", "x.toml:1:9: level = -inf: must be finite"},
         FindingCase{"level = 11", "x.toml:1:9: level = 11: must be between -10 and 10 V"},
-        FindingCase{"level = '5 A'", "x.toml:1:9: level = '5 A': found 'A', needs V"},
+        FindingCase{"level = '5 A'", "x.toml:1:9: level = '5 A': found 'A', needs V or mV"},
         FindingCase{"count = 256", "x.toml:1:9: count = 256: must be between 0 and 255"},
         FindingCase{"count = 1.5", "x.toml:1:9: count = 1.5: must be a whole number"},
         FindingCase{"count = '3'", "x.toml:1:9: count = '3': must be a whole number"},
         FindingCase{"period = '2 s'", "x.toml:1:10: period = '2 s': must be between 1e-06 and 1 s"},
-        FindingCase{"period = '5 m'", "x.toml:1:10: period = '5 m': found 'm', needs s"},
+        FindingCase{"period = '5 m'",
+                    "x.toml:1:10: period = '5 m': found 'm', needs s, ms, us, min, h or Hz (its rate)"},
+        FindingCase{"level = -11.3", "x.toml:1:9: level = -11.3: must be between -10 and 10 V"},
+        FindingCase{"level = 3e20", "x.toml:1:9: level = 3e+20: must be between -10 and 10 V"},
+        FindingCase{"level = -12.0", "x.toml:1:9: level = -12.0: must be between -10 and 10 V"},
+        FindingCase{"plane = [0.1, -3.9, 2.0]",
+                    "x.toml:1:9: plane = [ 0.1, -3.9, 2.0 ]: must have 2 elements, has 3"},
+        FindingCase{"title = { a = 0.3, b = [], c = 'x' }",
+                    "x.toml:1:9: title = { a = 0.3, b = [], c = 'x' }: must be a text in quotes"},
+        FindingCase{"pull = 2", "x.toml:1:1: pull = 2: unknown key, did you mean 'gains.pull'?"},
+        FindingCase{"limt = 2", "x.toml:1:1: limt = 2: unknown key, did you mean 'gains.limit'?"},
         FindingCase{"plane = [1]", "x.toml:1:9: plane = [ 1 ]: must have 2 elements, has 1"},
         FindingCase{"plane = 1", "x.toml:1:9: plane = 1: must be an array"},
         FindingCase{"turn = [0, 0, '700 deg/s']",
@@ -237,6 +247,12 @@ TEST(TomlReaderTest, ShowsTheRightFormOfAnArrayOfTables) {
             "mission.toml:1:14: waypoints[0] = 3: must be a table, written [[waypoints]]");
   EXPECT_EQ(wrong_route("[[waypoints]]\ngeodetic = 3\n"),
             "mission.toml:2:12: waypoints[0].geodetic = 3: must be a table, written { key = value }");
+}
+
+TEST(TomlReaderTest, SaysInWhichTableAKeyBelongs) {
+  EXPECT_EQ(wrong_route("[[waypoints]]\nlatitude = '40 deg'\n"),
+            "mission.toml:2:1: waypoints[0].latitude = '40 deg': unknown key, did you mean "
+            "'geodetic.latitude'?");
 }
 
 TEST(TomlReaderTest, SaysTheBoundsOfAnAngleInDegreesToo) {
