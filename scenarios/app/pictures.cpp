@@ -25,7 +25,7 @@ struct SnapshotArguments {
 
 /// Reads the log of a run, and says what it no longer tells.
 Log read_log(const std::string& file, TerminalListener& listener) {
-  Log log = Log::read(file);
+  Log log = read_flown(file);
   if (const std::string lost = what_is_lost(log); !lost.empty()) listener.note(file + ": warning: " + lost);
   return log;
 }

@@ -10,9 +10,11 @@
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/live_run.hpp"
 #include "scenarios/app/products.hpp"
+#include "scenarios/app/run_folder.hpp"
 #include "scenarios/app/scene.hpp"
 #include "scenarios/bench/bench.hpp"
 #include "scenarios/config/write_file.hpp"
+#include "scenarios/record/output_file.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
 
 namespace ironbird::scenarios {
@@ -64,10 +66,18 @@ void carry_out(const RunJob& job, const autopilot::Modules& modules, RunListener
   const FcuConfig& fcu = job.loaded->scenario.fcu;
   const bool own_unit = fcu.kind != FcuKind::kSerial && (fcu.kind != FcuKind::kHil || fcu.has_own_unit());
   if (own_unit) const Bench possible(*job.loaded, modules, {});
-  make_folder(folder);
+  const RunFolder held(folder);
   remove_old_products(folder);
   bool interrupted = false;
-  result.verdict = fly(job, modules, listener, interrupted);
+  try {
+    result.verdict = fly(job, modules, listener, interrupted);
+  } catch (const WriteError&) {
+    // Half a log would be taken for a flight, on a disk that needs room, and this one can be flown again.
+    // What a real unit has done cannot.
+    std::error_code ignored;
+    if (own_unit) std::filesystem::remove(folder / "flight.mcap", ignored);
+    throw;
+  }
   write_verdict(*result.verdict, folder / "verdict.json");
   listener.judged(*result.verdict);
   result.exit_code = interrupted ? static_cast<int>(kExitInterrupted) : exit_code(result.verdict->outcome);
@@ -97,9 +107,6 @@ RunResult run_job(const RunJob& job, const autopilot::Modules& modules, RunListe
   } catch (const std::exception& error) {
     note_failure(error, result);
   }
-  std::error_code not_empty;
-  if (!result.verdict)
-    std::filesystem::remove(job.name.folder, not_empty);  // without a result it helps nobody
   return result;
 }
 

@@ -74,6 +74,10 @@ class Log {
   std::unique_ptr<Contents> contents_;
 };
 
+/// A log of which something is to be shown. @throws UserError naming the file when it cannot be read, or
+/// holds no message
+Log read_flown(const std::filesystem::path& file);
+
 /// What a log that was cut short no longer tells; empty when it is whole.
 /// @param flown  how long the run was, s; nothing when nobody knows
 std::string what_is_lost(const Log& log, std::optional<double> flown = std::nullopt);

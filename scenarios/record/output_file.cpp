@@ -10,21 +10,20 @@
 #include <cstring>
 #include <string>
 
-#include "scenarios/config/user_error.hpp"
 #include "scenarios/config/write_file.hpp"
 
 namespace ironbird::scenarios {
 namespace {
 
-UserError failure(const std::filesystem::path& path, const char* what, int reason) {
-  return UserError(with_remedy(path.string() + ": " + what + ": " + std::strerror(reason)));
+WriteError failure(const std::filesystem::path& path, const char* what, int reason) {
+  return WriteError(with_remedy(path.string() + ": " + what + ": " + std::strerror(reason)));
 }
 
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path, bool in_background) : path_(path) {
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw failure(path_, "cannot be made", errno);
+  if (descriptor_ < 0) throw UserError(failure(path_, "cannot be made", errno));
   if (in_background) background_ = std::make_unique<BackgroundWriter>(descriptor_);
 }
 

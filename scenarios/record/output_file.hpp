@@ -5,9 +5,16 @@
 #include <memory>
 #include <span>
 
+#include "scenarios/config/user_error.hpp"
 #include "scenarios/record/background_writer.hpp"
 
 namespace ironbird::scenarios {
+
+/// A file that could be made could not be written to its end, as on a full disk.
+class WriteError : public UserError {
+ public:
+  using UserError::UserError;
+};
 
 /// A file that is written from front to back, one system call per write. Does not buffer, unless its writing
 /// is done in the background: then a write costs no system call, and what the disk cannot follow is left out,
@@ -24,10 +31,10 @@ class OutputFile {
   ~OutputFile();
 
   /// Writes the runs of bytes one behind the other. @return are they part of the file?
-  /// @throws std::runtime_error with path and reason; in the background never
+  /// @throws WriteError with path and reason; in the background never
   bool write(std::span<const std::uint8_t> first, std::span<const std::uint8_t> second = {});
 
-  /// Closes the file. @throws std::runtime_error when the system reports a write that failed late
+  /// Closes the file. @throws WriteError when the system reports a write that failed late
   void close();
 
   std::uint64_t size() const { return size_; }

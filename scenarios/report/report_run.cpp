@@ -17,7 +17,7 @@ ReportRun ReportRun::read(std::string label, const std::filesystem::path& log_fi
                           const std::filesystem::path& verdict_file) {
   std::optional<Verdict> verdict;
   if (std::filesystem::exists(verdict_file)) verdict = read_verdict(verdict_file);
-  ReportRun run(std::move(label), Log::read(log_file), std::move(verdict));
+  ReportRun run(std::move(label), read_flown(log_file), std::move(verdict));
   const std::string digest = run.about("digest");
   if (run.verdict_ && !digest.empty() && digest != run.verdict_->run.digest) {
     run.verdict_.reset();

@@ -17,8 +17,8 @@ class ReportRun {
   ReportRun(std::string label, Log log, std::optional<Verdict> verdict)
       : label_(std::move(label)), log_(std::move(log)), verdict_(std::move(verdict)) {}
 
-  /// Reads a log and, when the file is there and is of the same run, a verdict. @throws std::runtime_error
-  /// naming what cannot be read
+  /// Reads a log of which something can be shown and, when the file is there and is of the same run, a
+  /// verdict. @throws std::runtime_error naming what cannot be read
   static ReportRun read(std::string label, const std::filesystem::path& log_file,
                         const std::filesystem::path& verdict_file);
 

@@ -42,7 +42,7 @@ TEST_F(DiskTest, RefusesALogThatCannotBeMade) {
   EXPECT_NE(said.text.find("flight.mcap: cannot be made"), std::string::npos) << said.text;
 }
 
-TEST_F(DiskTest, SaysOnceThatTheDiskIsFullAndLeavesALogThatOpens) {
+TEST_F(DiskTest, SaysOnceThatTheDiskIsFullAndLeavesNoHalfALog) {
   // 400 KiB for each file, and no signal when they are used up: like a full disk.
   const Said said =
       run_shell("trap '' XFSZ; ulimit -f 400; " + kProgram + " run " + file_ + " --out " + out_.string());
@@ -50,10 +50,16 @@ TEST_F(DiskTest, SaysOnceThatTheDiskIsFullAndLeavesALogThatOpens) {
   EXPECT_EQ(said.lines(), 1) << said.text;
   EXPECT_NE(said.text.find("flight.mcap: writing failed"), std::string::npos) << said.text;
   EXPECT_NE(said.text.find("; raise the limit"), std::string::npos) << said.text;
-  EXPECT_FALSE(std::filesystem::exists(out_ / "short/verdict.json"));
-  const Log log = Log::read(out_ / "short/flight.mcap");
-  ASSERT_NE(log.topic("/truth/state"), nullptr);
-  EXPECT_GT(log.topic("/truth/state")->time().size(), 10U);
+  EXPECT_FALSE(std::filesystem::exists(out_ / "short"));
+}
+
+TEST_F(DiskTest, SaysThatNotEvenTheFirstBytesOfALogHaveRoom) {
+  const Said said =
+      run_shell("trap '' XFSZ; ulimit -f 0; " + kProgram + " run " + file_ + " --out " + out_.string());
+  EXPECT_EQ(said.exit_code, 2) << said.text;
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_NE(said.text.find("flight.mcap: writing failed"), std::string::npos) << said.text;
+  EXPECT_FALSE(std::filesystem::exists(out_ / "short"));
 }
 
 TEST_F(DiskTest, SaysThatItsOutputCouldNotBeWritten) {
@@ -101,6 +107,43 @@ TEST_F(DiskTest, AVerdictThatCannotBeWrittenIsAnErrorToo) {
   EXPECT_NE(said.text.find("verdict.json: cannot be written"), std::string::npos) << said.text;
 }
 
+/// The shell's words that wait until a run of kEndless in the background has written something to `log_file`.
+std::string until_under_way(const std::string& log_file) {
+  return "for i in $(seq 1200); do [ $(stat -c %s " + log_file + " 2>/dev/null || echo 0) -gt " +
+         kBytesOfARunUnderWay + " ] && break; sleep 0.05; done; ";
+}
+
+class HeldFolderTest : public ::testing::Test {
+ protected:
+  const TemporaryFolder folder_;
+  const std::string endless_ = folder_.write("mission.toml", kEndless);
+  const std::string out_ = (folder_ / "out").string();
+  const std::string log_file_ = out_ + "/mission/flight.mcap";
+  const std::string run_ = kProgram + " run " + endless_ + " --out " + out_;
+};
+
+TEST_F(HeldFolderTest, RefusesASecondRunInTheFolderOfTheFirstAndLeavesThatAlone) {
+  // GIVEN a run under way WHEN a second one is to write to the same folder
+  const Said said = run_shell("env --default-signal=INT " + run_ + " >/dev/null 2>&1 & p=$!; " +
+                              until_under_way(log_file_) + "i=$(stat -c %i " + log_file_ + "); " + run_ +
+                              "; echo second $?; kill -INT $p; wait $p; echo first $?; [ $i = $(stat -c %i " +
+                              log_file_ + ") ] && echo same file");
+  // THEN it is refused in one line, and the first ends as it would have
+  EXPECT_EQ(said.text, out_ +
+                           "/mission: another run is writing its results here; wait for its end, or choose "
+                           "another folder with --out\nsecond 2\nfirst 130\nsame file\n");
+  EXPECT_FALSE(Log::read(log_file_).truncated());
+}
+
+TEST_F(HeldFolderTest, IsFreeAgainHoweverARunEnded) {
+  const std::string brief = run_ + " --set duration=1";
+  const Said said = run_shell(run_ + " >/dev/null 2>&1 & p=$!; " + until_under_way(log_file_) +
+                              "kill -KILL $p; wait $p 2>/dev/null; " + brief);
+  EXPECT_EQ(said.text.find("another run"), std::string::npos) << said.text;
+  EXPECT_FALSE(Log::read(log_file_).truncated());
+  EXPECT_TRUE(std::filesystem::exists(out_ + "/mission/verdict.json"));
+}
+
 class InterruptTest : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(InterruptTest, EndsTheRunWithALogThatOpens) {
@@ -109,10 +152,9 @@ TEST_P(InterruptTest, EndsTheRunWithALogThatOpens) {
   const std::string out = (folder / "out").string();
   const std::string log_file = out + "/endless/flight.mcap";
   // The shell would let its background jobs ignore Ctrl-C; env sets that right.
-  const Said said = run_shell("env --default-signal=INT " + kProgram + " run " + file + " --out " + out +
-                              " & p=$!; for i in $(seq 1200); do [ $(stat -c %s " + log_file +
-                              " 2>/dev/null || echo 0) -gt " + kBytesOfARunUnderWay +
-                              " ] && break; sleep 0.05; done; kill -" + GetParam() + " $p; wait $p");
+  const Said said =
+      run_shell("env --default-signal=INT " + kProgram + " run " + file + " --out " + out + " & p=$!; " +
+                until_under_way(log_file) + "kill -" + GetParam() + " $p; wait $p");
   EXPECT_EQ(said.exit_code, 130) << said.text;
   EXPECT_NE(said.text.find("interrupted"), std::string::npos) << said.text;
   const Log log = Log::read(log_file);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "scenarios/app/test/program.hpp"
 
@@ -83,13 +84,28 @@ TEST_F(LogsAgainTest, TellsItOfAFilmAndOfPicturesToo) {
   }
 }
 
-TEST_F(LogsAgainTest, TellsThatNothingIsLeft) {
-  const std::string log = cut("bare", 0.0);
-  EXPECT_THAT(show("report", log, path("bare.html")).text,
-              HasSubstr("cut short before its first message: nothing of the flight is in it"));
-  const Said said = show("video", log, path("bare.y4m"));
+TEST_F(LogsAgainTest, RefusesALogOfWhichNothingIsLeft) {
+  for (const auto& [name, share] : {std::pair("empty", 0.0), std::pair("headed", 0.0002)}) {
+    const std::string log = cut(name, share);
+    for (const char* verb : {"report", "video", "snapshot"}) {
+      const Said said = show(verb, log, path(std::string(name) + ".y4m"));
+      EXPECT_EQ(said.exit_code, 2) << verb;
+      EXPECT_EQ(said.text,
+                log +
+                    ": nothing can be shown of it: it holds no message; name the log of a run that "
+                    "flew\n")
+          << verb;
+      EXPECT_FALSE(std::filesystem::exists(path(std::string(name) + ".y4m")));
+    }
+  }
+}
+
+TEST_F(LogsAgainTest, MakesNoReportWhenOneOfItsLogsIsEmpty) {
+  const std::string log = cut("hollow", 0.0);
+  const Said said = show("report", path("flight/flight.mcap") + " " + log, path("both.html"));
   EXPECT_EQ(said.exit_code, 2);
-  EXPECT_THAT(said.text, HasSubstr("cut short before its scenario"));
+  EXPECT_EQ(said.lines(), 1) << said.text;
+  EXPECT_FALSE(std::filesystem::exists(path("both.html")));
 }
 
 TEST_F(LogsAgainTest, ShowsNoVerdictOfAnotherRun) {

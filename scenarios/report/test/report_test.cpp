@@ -117,12 +117,19 @@ TEST_F(ReportTest, OpensALogWithoutAnything) {
   std::filesystem::create_directories(folder("empty"));
   { Recorder recorder(folder("empty") / "flight.mcap"); }
   std::vector<ReportRun> runs;
-  runs.push_back(ReportRun::read("empty", folder("empty") / "flight.mcap", folder("empty") / "verdict.json"));
+  runs.emplace_back("empty", Log::read(folder("empty") / "flight.mcap"), std::nullopt);
   const std::string page = report_html(runs);
   EXPECT_EQ(nesting_mistake(page), "");
   EXPECT_NE(page.find("not judged"), std::string::npos);
   EXPECT_NE(page.find("not in the log: /autopilot/estimate /autopilot/trajectory /truth/state"),
             std::string::npos);
+}
+
+TEST_F(ReportTest, ReadsNoRunFromALogWithoutMessages) {
+  std::filesystem::create_directories(folder("empty"));
+  { Recorder recorder(folder("empty") / "flight.mcap"); }
+  EXPECT_THROW(ReportRun::read("empty", folder("empty") / "flight.mcap", folder("empty") / "verdict.json"),
+               UserError);
 }
 
 TEST_F(ReportTest, MissesNothingWhenNoWaypointsWereFlown) {

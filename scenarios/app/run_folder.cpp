@@ -1,0 +1,53 @@
+#include "scenarios/app/run_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "scenarios/config/user_error.hpp"
+#include "scenarios/config/write_file.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+/// Runs that end just now remove their empty folder; a name that never leads to the folder made is of a file
+/// system on which nothing can be held.
+constexpr int kMostTries = 100;
+
+}  // namespace
+
+RunFolder::RunFolder(std::filesystem::path path) : path_(std::move(path)) {
+  for (int tried = 0; tried < kMostTries; ++tried) {
+    make_folder(path_);
+    if (hold()) return;
+  }
+}
+
+RunFolder::~RunFolder() {
+  std::error_code not_empty;
+  std::filesystem::remove(path_, not_empty);  // while it is held: another run may be about to take it
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool RunFolder::hold() {
+  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0) return errno != ENOENT;  // one that may not be read may still be written to
+  const bool taken = ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  struct stat held {};
+  struct stat named {};
+  const bool same = ::fstat(descriptor_, &held) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+                    held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+  if (same && !taken) return true;
+  ::close(std::exchange(descriptor_, -1));
+  if (!taken) return false;  // the run before has just removed it
+  throw UserError(path_.string() + ": another run is writing its results here; wait for its end, or choose " +
+                  "another folder with --out");
+}
+
+}  // namespace ironbird::scenarios
