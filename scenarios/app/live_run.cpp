@@ -17,6 +17,7 @@
 #include "hil_bridge/executive/real_time_rights.hpp"
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/live_watchdog.hpp"
+#include "scenarios/bench/expected_end.hpp"
 #include "scenarios/bench/live_bench.hpp"
 #include "scenarios/bench/live_rules.hpp"
 #include "scenarios/config/config_error.hpp"
@@ -110,12 +111,14 @@ class ControlThread {
 /// Shows the operator how it stands, and hears their word.
 class Console {
  public:
-  Console(const RunJob& job, RunListener& listener) : job_(job), listener_(listener) {}
+  Console(const RunJob& job, RunListener& listener)
+      : job_(job), listener_(listener), expected_end_(expected_end(*job.loaded)) {}
 
   void look(LiveBench& bench) {
     const LiveView& view = bench.view();
     if (view.state != state_) tell(view);
-    listener_.progress({job_.name.text(), view.flown, job_.loaded->scenario.duration, detail(view)});
+    const double end = shown_end(expected_end_, view.flown, job_.loaded->scenario.duration);
+    listener_.progress({job_.name.text(), view.flown, end, detail(view)});
     if (!job_.live.released && at_terminal() && word_typed() && view.state == InterlockState::kVerified) {
       bench.release();
     }
@@ -173,6 +176,7 @@ class Console {
 
   const RunJob& job_;
   RunListener& listener_;
+  double expected_end_;  // s, of the scenario's own time
   InterlockState state_ = InterlockState::kCold;
   std::string line_;
   bool told_ = false;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scenarios/bench/check_rules.hpp"
+#include "scenarios/bench/expected_end.hpp"
 #include "scenarios/bench/hil_rig.hpp"
 #include "scenarios/bench/make_guard.hpp"
 #include "scenarios/bench/run_time.hpp"
@@ -132,12 +133,14 @@ void Bench::wire_script() {
 
 Verdict Bench::fly() {
   const auto start = std::chrono::steady_clock::now();
+  const double expected = expected_end(loaded_);
   Time next_progress{0};
   while (!ended_) {
     const Time now = tick();
     if (now >= next_progress && options_.on_progress) {
       next_progress += kProgressPeriod;
-      if (!options_.on_progress({to_seconds(now), scenario_.duration})) {
+      const double flown = to_seconds(now);
+      if (!options_.on_progress({flown, shown_end(expected, flown, scenario_.duration)})) {
         interrupted_ = true;
         break;
       }

@@ -33,12 +33,12 @@ class HilRig;
 /// How far a run has come.
 struct Progress {
   double simulated = 0.0;
-  double duration = 0.0;
+  double expected_end = 0.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("simulated", self.simulated, "s", "flown so far");
-    visit("duration", self.duration, "s", "of the run at the most");
+    visit("expected_end", self.expected_end, "s", "when the run is likely to end");
   }
 };
 
