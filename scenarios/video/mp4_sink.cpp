@@ -1,9 +1,11 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -48,7 +50,7 @@ class Mp4Sink final : public VideoSink {
  public:
   Mp4Sink(const std::filesystem::path& file, const VideoFormat& format, const std::string& preset,
           const std::string& program)
-      : program_(program), file_(file), part_(file.string() + ".part"), complaints_(file.string() + ".log") {
+      : program_(program), file_(file), part_(file.string() + ".part") {
     check_writable(file_);  // a folder that takes no file would look like a program that cannot be started
     start(arguments(format, preset));
   }
@@ -63,7 +65,9 @@ class Mp4Sink final : public VideoSink {
     }
     std::error_code ignored;
     std::filesystem::remove(part_, ignored);
-    std::filesystem::remove(complaints_, ignored);
+    if (complaints_ >= 0) {
+      ::close(complaints_);
+    }
   }
 
   void write(std::span<const std::uint8_t> yuv) override {
@@ -104,6 +108,8 @@ class Mp4Sink final : public VideoSink {
       throw UserError(std::string("film: no pipe: ") + std::strerror(errno));
     }
     input_ = ends[1];
+    // Not beside the film: what there is to complain about is often that the disk is full.
+    complaints_ = ::memfd_create("complaints", MFD_CLOEXEC);
     std::vector<char*> pointers;
     for (std::string& word : words) {
       pointers.push_back(word.data());
@@ -113,7 +119,11 @@ class Mp4Sink final : public VideoSink {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[0], 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 2, complaints_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (complaints_ >= 0) {
+      posix_spawn_file_actions_adddup2(&actions, complaints_, 2);
+    } else {
+      posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    }
     const int error =
         ::posix_spawnp(&process_, program_.c_str(), &actions, nullptr, pointers.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -121,8 +131,7 @@ class Mp4Sink final : public VideoSink {
     if (error != 0) {
       process_ = -1;
       ::close(input_);
-      std::error_code ignored;
-      std::filesystem::remove(complaints_, ignored);
+      ::close(complaints_);
       throw UserError(file_.string() + ": " +
                       (error == ENOENT ? "the program '" + program_ +
                                              "' is needed for films and was not found; install it, or name "
@@ -142,13 +151,11 @@ class Mp4Sink final : public VideoSink {
 
   [[noreturn]] void fail() {
     std::string line = "it gave no reason";
-    if (FILE* stream = std::fopen(complaints_.c_str(), "r"); stream != nullptr) {
-      std::array<char, 400> text{};
-      if (std::fgets(text.data(), static_cast<int>(text.size()), stream) != nullptr) {
-        line = text.data();
-        line.erase(line.find_last_not_of("\r\n") + 1);
-      }
-      std::fclose(stream);
+    std::array<char, 400> text{};
+    const ssize_t count = ::pread(complaints_, text.data(), text.size(), 0);
+    if (count > 0) {
+      line.assign(text.data(), static_cast<std::size_t>(count));
+      line.erase(std::min(line.find_first_of("\r\n"), line.size()));
     }
     throw UserError(with_remedy(file_.string() + ": '" + program_ + "' failed: " + line));
   }
@@ -156,9 +163,9 @@ class Mp4Sink final : public VideoSink {
   std::string program_;
   std::filesystem::path file_;
   std::filesystem::path part_;
-  std::filesystem::path complaints_;
   pid_t process_ = -1;
   int input_ = -1;
+  int complaints_ = -1;  // what the program says, in memory
 };
 
 }  // namespace

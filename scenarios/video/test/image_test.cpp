@@ -174,5 +174,22 @@ TEST_F(ImageTest, RepeatsWhatTheEncoderComplainsAbout) {
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
+TEST_F(ImageTest, RepeatsItOnADiskThatHasNoRoomForAnotherFile) {
+  // GIVEN an encoder that meets a full disk, which nothing beside the film would fit on either
+  const fs::path encoder = folder_ / "encoder";
+  std::ofstream(encoder) << "#!/bin/sh\necho 'x: No space left on device' >&2\nexit 1\n";
+  fs::permissions(encoder, fs::perms::owner_all);
+  fs::create_directories(folder_ / "a.mp4.log");
+  // WHEN it ends THEN its words and what helps are told
+  try {
+    make_mp4_sink(folder_ / "a.mp4", {16, 16, 30}, "ultrafast", encoder.string())->finish();
+    FAIL() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("failed: x: No space left on device; make room there"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace ironbird::scenarios
