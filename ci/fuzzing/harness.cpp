@@ -1,12 +1,15 @@
 #include "ci/fuzzing/harness.hpp"
 
 #include <sys/mman.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 namespace ironbird::fuzzing {
 
@@ -46,6 +49,34 @@ class Ledger {
   unsigned long long bytes_ = 0;
   unsigned long long inputs_ = 0;
   std::chrono::steady_clock::time_point said_ = std::chrono::steady_clock::now();
+};
+
+/// Ends the program at an input that takes too much of a core. libFuzzer itself looks at the clock only, and
+/// on a machine that does other things many seconds pass for nothing.
+class CoreTime {
+ public:
+  CoreTime() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { tick(); };
+    action.sa_flags = SA_RESTART;
+    const itimerval every_second{{1, 0}, {1, 0}};
+    require(sigaction(SIGPROF, &action, nullptr) == 0 && setitimer(ITIMER_PROF, &every_second, nullptr) == 0,
+            "the time of a core can be measured");
+  }
+  void begin() { seconds_ = 0; }
+
+ private:
+  static constexpr int kMost = 10;  // s, with the sanitizers; inputs take some milliseconds
+
+  static void tick() {
+    seconds_ = seconds_ + 1;
+    if (seconds_ <= kMost) return;
+    constexpr std::string_view kSays = "does not hold: an input takes less than 10 s of a core\n";
+    (void)!::write(STDERR_FILENO, kSays.data(), kSays.size());
+    std::abort();  // libFuzzer then keeps the input
+  }
+
+  static inline volatile std::sig_atomic_t seconds_ = 0;
 };
 
 }  // namespace
@@ -97,6 +128,8 @@ void MemoryFile::write(const std::string& content) const {
 /// libFuzzer's door.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static ironbird::fuzzing::Ledger ledger;
+  static ironbird::fuzzing::CoreTime core_time;
+  core_time.begin();
   ironbird::fuzzing::check({data, size});
   ledger.note(size);
   return 0;

@@ -1,10 +1,12 @@
 #include "scenarios/fcu/parameter_file.hpp"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -114,9 +116,35 @@ std::optional<ParameterRecord> record_of(const YAML::Node& entry, Findings& find
   return std::nullopt;
 }
 
+/// Refuses aliases: by them a file of some megabytes stands for as many copies of a long text.
+class NoAliases : public YAML::EventHandler {
+ public:
+  explicit NoAliases(std::string file) : file_(std::move(file)) {}
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+    throw ConfigError(file_ + ":" + line_of(mark) + ": is an alias, `*name`; write what it stands for");
+  }
+  void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnScalar(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                const std::string& /*value*/) override {}
+  void OnSequenceStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                       YAML::EmitterStyle::value /*style*/) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                  YAML::EmitterStyle::value /*style*/) override {}
+  void OnMapEnd() override {}
+
+ private:
+  std::string file_;
+};
+
 YAML::Node parsed(const std::filesystem::path& file) {
   const std::string text = read_config_text(file, "");
   try {
+    NoAliases no_aliases(file.string());
+    std::istringstream stream(text);
+    YAML::Parser(stream).HandleNextDocument(no_aliases);
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     throw ConfigError(file.string() + ":" + line_of(error.mark) + ": is not YAML: " + error.msg);

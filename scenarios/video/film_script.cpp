@@ -29,6 +29,7 @@ constexpr double kEventShown = 3.0;     // s that an event's text stays in the p
 constexpr double kBladeSpeed = 40.0;    // rad/s, up to here blades turn as they do
 constexpr double kApparentSpeed = 9.0;  // rad/s that the streaks of a faster rotor seem to turn with
 constexpr double kSpeedWindow = 0.1;    // s over which the speed in the text is taken
+constexpr double kLongest = 21600.0;    // s of a film, six hours; all its pictures are planned in memory
 constexpr std::array<double, 2> kTurn{1.0, -1.0};  // rotors turn left and right alternately
 
 const LogTopic& need(const Log& log, const char* name) {
@@ -139,6 +140,7 @@ class Director {
   void shoot(FilmScript& script) {
     const double begin = std::max(options_.begin, shown_.begin());
     const double end = std::min(options_.end, shown_.end());
+    refuse_length(begin, end);
     const auto count =
         static_cast<std::size_t>(std::max(1.0, std::floor((end - begin) * options_.frame_rate + 1.5)));
     std::vector<Pose> poses;
@@ -150,6 +152,15 @@ class Director {
   }
 
  private:
+  // One stamp of centuries makes pictures without end.
+  void refuse_length(double begin, double end) const {
+    if (end - begin <= kLongest) return;
+    throw UserError("film: " + shown_topic_.name() +
+                    formatted(" lasts from %.1f s to %.1f s", shown_.begin(), shown_.end()) +
+                    formatted(", a film at most %.0f s", kLongest, 0.0) +
+                    ": cut the log, or take out the time stamp that is wrong");
+  }
+
   FilmFrame frame(double time) {
     FilmFrame frame;
     frame.time = time;

@@ -64,8 +64,8 @@ struct FilmOptions {
   }
 };
 
-/// The film of a log. @throws std::runtime_error when the log lacks the poses, std::invalid_argument when a
-/// cut names a camera that is not there
+/// The film of a log. @throws UserError when the log lacks the poses or they last longer than six hours,
+/// std::invalid_argument when a cut names a camera that is not there
 FilmScript film_script(const Log& log, const FilmOptions& options);
 
 /// The frame of the script at a time, or the nearest. @param time  s since the start of the run

@@ -117,5 +117,15 @@ TEST_F(ParameterFileTest, RefusesWhatIsNoYamlAndWhatIsNoList) {
   EXPECT_THAT(findings(""), ElementsAre(HasSubstr("is no list of parameters")));
 }
 
+// Fifty thousand findings with a megabyte in each would not fit into the memory.
+TEST_F(ParameterFileTest, RefusesAliases) {
+  std::string text = "- &a {name: A, type: 6, value: &b " + std::string(1'000'000, 'x') + "}\n";
+  for (int i = 0; i < 50'000; ++i) text += "- {name: *b, type: 6, value: 1}\n";
+  EXPECT_THAT(findings(text), ElementsAre(HasSubstr(":2: is an alias, `*name`; write what it stands for")));
+  EXPECT_THAT(findings("- &a {name: A, type: 6, value: 1}\n- {name: B, type: 6, value: 1}\n- *a\n"),
+              ElementsAre(HasSubstr(":3: is an alias")));
+  EXPECT_THAT(findings("- {name: A, type: 6, value: *c}\n"), ElementsAre(HasSubstr(":1: ")));
+}
+
 }  // namespace
 }  // namespace ironbird::scenarios

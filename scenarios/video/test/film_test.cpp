@@ -13,6 +13,7 @@
 #include <string>
 
 #include "autopilot/signals.hpp"
+#include "scenarios/config/user_error.hpp"
 #include "scenarios/record/recorder.hpp"
 #include "scenarios/requirements/timeline.hpp"
 #include "scenarios/video/camera_work.hpp"
@@ -207,6 +208,34 @@ TEST_F(FilmTest, IsMadeFromALog) {
   EXPECT_EQ(frame_at(script, 1.01), 30U);
   options.cuts = {{1.0, "cellar"}};
   EXPECT_THROW(film_script(log, options), std::invalid_argument);
+}
+
+TEST_F(FilmTest, IsNotMadeOfPosesThatLastForCenturies) {
+  const auto log_until = [&](std::chrono::nanoseconds last) {
+    simulator::Truth truth;
+    Recorder recorder(folder_ / "flight.mcap");
+    recorder.add("/truth/state", truth, std::chrono::milliseconds(10));
+    recorder.observe(autopilot::Time{0});
+    recorder.observe(last);
+    recorder.close();
+    return Log::read(folder_ / "flight.mcap");
+  };
+  FilmOptions options;
+  options.vehicle_scene = IRONBIRD_SOURCE_DIR "/models/x650/scene.xml";
+  options.field = IRONBIRD_SOURCE_DIR "/models/fields/yard.xml";
+  options.frame_rate = 1;
+  EXPECT_EQ(film_script(log_until(std::chrono::hours(6)), options).frames.size(), 21601U);
+  try {
+    film_script(log_until(std::chrono::hours(24 * 365 * 200)), options);
+    FAIL() << "a film of two hundred years";
+  } catch (const UserError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "film: /truth/state lasts from 0.0 s to 6307200000.0 s, a film at most 21600 s: cut the log, or "
+        "take out the time stamp that is wrong");
+  }
+  options.end = 2.0;
+  EXPECT_EQ(film_script(log_until(std::chrono::hours(24 * 365 * 200)), options).frames.size(), 3U);
 }
 
 }  // namespace
