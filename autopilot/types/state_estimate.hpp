@@ -98,9 +98,9 @@ struct StateEstimate {
           "horizontal position and velocity can be flown on; false: height and attitude only");
     visit("position_age", self.position_age, "s", "since the horizontal position was last measured");
     visit("position_doubtful", self.position_doubtful, "1",
-          "the satellite fixes have stepped: p_NB_N is dead reckoning's, where N lies on the earth is "
-          "doubtful");
-    visit("position_offset_N", self.position_offset_N, "m", "by how much they have stepped, taken off them");
+          "fixes and dead reckoning disagree, whichever is wrong: p_NB_N is dead reckoning's, where N lies "
+          "on the earth is doubtful");
+    visit("position_offset_N", self.position_offset_N, "m", "by how much they do, taken off the fixes");
     visit("position_resets", self.position_resets, "1",
           "how often the horizontal position jumped, by a reset or a large correction");
     visit("position_reset_sum_N", self.position_reset_sum_N, "m",

@@ -106,7 +106,7 @@ void EventDetector::look_at_route(double time, Timeline& timeline) {
 void EventDetector::look_at_places(double time, Timeline& timeline) {
   const autopilot::StateEstimate& x = signals_.estimate;
   if (x.position_offset_N != offset_N_ && x.position_doubtful) {
-    timeline.add(time, "gnss_step", with_unit((x.position_offset_N - offset_N_).norm(), "m"));
+    timeline.add(time, "fixes_disagree", with_unit((x.position_offset_N - offset_N_).norm(), "m"));
   }
   offset_N_ = x.position_offset_N;
   const bool same_place = x.origin.latitude == origin_.latitude && x.origin.longitude == origin_.longitude;

@@ -13,7 +13,7 @@
 namespace ironbird::scenarios {
 
 /// Events about the estimated position whose text is a distance: they are found by their kind.
-inline constexpr std::array<std::string_view, 3> kPositionEvents{"gnss_step", "position_reset",
+inline constexpr std::array<std::string_view, 3> kPositionEvents{"fixes_disagree", "position_reset",
                                                                  "origin_moved"};
 
 /// Whether the position is in doubt.
@@ -69,7 +69,8 @@ class Timeline {
 /// `unarmed`), waypoints (`waypoint_1` for the first one reached, and on from there through every route and
 /// flight of the run, `route_finished`, once for each route as it stands), health of the estimate
 /// (`degraded`), doubt about the position
-/// (`doubtful`, `sure`; by how much the fixes have stepped is `gnss_step`), a position that jumps
+/// (`doubtful`, `sure`; by how much fixes and dead reckoning differ is `fixes_disagree`), a position that
+/// jumps
 /// (`position_reset`), an origin that moves (`origin_moved`), and why the phase changed when nobody asked for
 /// it (`cause:position_unknown`).
 ///

@@ -39,7 +39,7 @@ TEST(EventNamesTest, KnowsTheEventsOfThePosition) {
   for (const char* name : {"doubtful", "sure", "cause:position_doubtful"}) {
     EXPECT_EQ(of_deed(mission(3), name), "") << name;
   }
-  for (const char* name : {"gnss_step", "position_reset", "origin_moved"}) {
+  for (const char* name : {"fixes_disagree", "position_reset", "origin_moved"}) {
     EXPECT_EQ(EventNames(mission(3)).complaint(name, Waiting::kCheck), "") << name;
     EXPECT_NE(of_deed(mission(3), name), "") << "its text is a distance: " << name;
   }

@@ -314,7 +314,8 @@ TEST_F(JudgeTest, SaysWhatHappensToThePosition) {
   judge.observe(40ms);
   std::string all;
   for (const RunEvent& event : judge.events()) all += event.kind + ":" + event.text + " ";
-  EXPECT_EQ(all, "position:doubtful gnss_step:300 m position:sure position_reset:12.5 m origin_moved:100 m ");
+  EXPECT_EQ(all,
+            "position:doubtful fixes_disagree:300 m position:sure position_reset:12.5 m origin_moved:100 m ");
 }
 
 TEST_F(JudgeTest, MakesOneEventOfAHealthThatFlaps) {
