@@ -43,7 +43,13 @@ std::string about_refusal(const RunEvent& refusal) {
 
 std::string why_left(const Script::Left& left) {
   if (!left.due) return " waited for \"" + left.after + "\", which never happened";
-  return " was due at " + with_unit(to_seconds(*left.due), "s") + ", after the end of the run";
+  return " was due at " + with_unit(to_seconds(*left.due), "s") + ", when the run was over";
+}
+
+/// What is asked for when the run ends leaves nothing to be judged; a picture of the end is one.
+Script::Role role_of(const Deed& deed) {
+  if (deed.kind == Deed::Kind::kEnd) return Script::Role::kEnd;
+  return deed.kind == Deed::Kind::kEvent ? Script::Role::kBeforeTheEnd : Script::Role::kIndifferent;
 }
 
 }  // namespace
@@ -60,12 +66,12 @@ void Playbook::add_scenario() {
 }
 
 void Playbook::add(const std::string& after, double delay, Deed deed) {
-  script_.add(after, from_seconds(delay));
+  script_.add(after, from_seconds(delay), role_of(deed));
   deeds_.push_back(deed);
 }
 
 void Playbook::add_at(Time when, Deed deed) {
-  script_.add("", when);
+  script_.add("", when, role_of(deed));
   deeds_.push_back(deed);
 }
 

@@ -18,10 +18,17 @@ class Script {
  public:
   using Time = std::chrono::nanoseconds;
 
+  /// How an item stands to the end of the run.
+  enum class Role {
+    kIndifferent,   ///< given out at its time, at the end as well
+    kBeforeTheEnd,  ///< would come to nothing at the end: left when an end is due, too
+    kEnd            ///< is the end
+  };
+
   /// Adds an item that is due `delay` after the start, or, with `after` not empty, after the event of that
   /// name first happened.
   /// @return its number
-  std::size_t add(const std::string& after, Time delay);
+  std::size_t add(const std::string& after, Time delay, Role role = Role::kIndifferent);
 
   /// An event happened: items waiting for it get their time. Later events of the same name change nothing.
   void happened(std::string_view name, Time now);
@@ -43,6 +50,7 @@ class Script {
   struct Item {
     std::string after;
     Time delay{};
+    Role role = Role::kIndifferent;
     std::optional<Time> due;
     bool given_out = false;
   };
@@ -50,6 +58,7 @@ class Script {
   std::vector<Item> items_;
   Time earliest_{Time::max()};
   void find_earliest();
+  bool ends_by(Time now) const;
 };
 
 }  // namespace ironbird::scenarios

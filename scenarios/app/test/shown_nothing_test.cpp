@@ -67,11 +67,24 @@ TEST_F(ShownNothingTest, AnEventWhoseOccasionNeverCameLeavesNoPass) {
   EXPECT_NE(verdict_file().find("event \\\"late\\\" waited for"), std::string::npos) << verdict_file();
 }
 
-TEST_F(ShownNothingTest, AnEventBehindTheEndLeavesNoPass) {
-  expect(fly(kMission + "[[event]]\nname = \"gust\"\nat = \"9 s\"\nfault = \"wind\"\nvector = [1, 0, 0]\n"),
-         5,
-         "event \"gust\" was due at 9 s, after the end of the run; if it need not come, say so: optional = "
-         "true");
+TEST_F(ShownNothingTest, AnEventAtTheEndOrBehindItLeavesNoPass) {
+  const auto gust_at = [](const std::string& time) {
+    return "[[event]]\nname = \"gust\"\nat = \"" + time + " s\"\nfault = \"wind\"\nvector = [1, 0, 0]\n";
+  };
+  for (const std::string time : {"9", "8"}) {
+    expect(fly(kMission + gust_at(time)), 5,
+           "event \"gust\" was due at " + time +
+               " s, when the run was over; if it need not come, say so: optional = true");
+    EXPECT_EQ(verdict_file().find("\"text\": \"gust\""), std::string::npos) << verdict_file();
+  }
+  expect(fly(kMission + gust_at("7.99")), 0, "flight: pass\n");
+  EXPECT_NE(verdict_file().find("\"text\": \"gust\""), std::string::npos) << verdict_file();
+}
+
+TEST_F(ShownNothingTest, APictureOfTheEndIsTaken) {
+  const Said said = fly(kMission + "[[snapshot]]\nname = \"end\"\nat = \"8 s\"\ncamera = \"chase\"\n");
+  expect(said, 0, "flight: pass\n");
+  EXPECT_EQ(said.text.find("warning"), std::string::npos) << said.text;
 }
 
 TEST_F(ShownNothingTest, AnEventThatNeedNotComeDoesNotMatter) {

@@ -41,6 +41,30 @@ TEST(ScriptTest, CountsFromTheFirstEventOfAName) {
   EXPECT_EQ(all_due(script, seconds(13)), (std::vector<std::size_t>{0}));
 }
 
+TEST(ScriptTest, KeepsBackAtTheEndWhatBelongsBeforeIt) {
+  using enum Script::Role;
+  Script script;
+  script.add("", seconds(1), kBeforeTheEnd);
+  script.add("", seconds(2), kBeforeTheEnd);
+  script.add("", seconds(2), kIndifferent);
+  script.add("", seconds(2), kEnd);
+  EXPECT_EQ(all_due(script, seconds(1)), (std::vector<std::size_t>{0}));
+  EXPECT_EQ(all_due(script, seconds(2)), (std::vector<std::size_t>{2, 3}));
+  ASSERT_EQ(script.left().size(), 1U);
+  EXPECT_EQ(script.left()[0].item, 1U);
+}
+
+TEST(ScriptTest, EndsWithTheFirstEndThatIsDue) {
+  using enum Script::Role;
+  Script script;
+  script.add("", seconds(9), kEnd);
+  script.add("landed", seconds(0), kBeforeTheEnd);
+  script.add("landed", seconds(0), kEnd);
+  script.happened("landed", seconds(3));
+  EXPECT_EQ(all_due(script, seconds(3)), (std::vector<std::size_t>{2}));
+  EXPECT_EQ(script.left().size(), 2U);
+}
+
 TEST(ScriptTest, TellsWhatIsLeft) {
   Script script;
   script.add("b", seconds(0));
