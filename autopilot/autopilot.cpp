@@ -133,9 +133,8 @@ const FcuCommand& Autopilot::step(const SensorFrame& frame) {
   const Route& route = path_planner_->run(s.estimate, s.flight);
   if (route.revision != route_revision_ || route.released != s.route.released) s.route = route;
   route_revision_ = route.revision;
-  const FlightStatus offered = offered_flight();
-  s.trajectory = path_manager_->run(route, s.estimate, offered);
-  s.setpoint = trajectory_follower_->run(s.trajectory, s.estimate, offered);
+  s.trajectory = path_manager_->run(route, s.estimate, s.flight);
+  s.setpoint = trajectory_follower_->run(s.trajectory, s.estimate, s.flight);
   if (override_) s.setpoint = *override_;
   s.command = controller_->run(s.setpoint, s.trajectory.landing && !override_, s.estimate, s.flight.fcu);
   return s.command;
@@ -193,17 +192,12 @@ RequestOutcome Autopilot::fly(const OverrideSetpoint& wish) {
   return {true, ""};
 }
 
-/// While an operator's setpoint flies, manager and follower wait as they do when the pilot flies.
-FlightStatus Autopilot::offered_flight() const {
-  FlightStatus offered = signals_.flight;
-  if (override_ && offered.phase == FlightPhase::kOffboard) offered.phase = FlightPhase::kHold;
-  return offered;
-}
-
 void Autopilot::note_flight() {
   signals_.flight.phase = controller_->phase();
   signals_.flight.cause = controller_->cause();
   signals_.flight.memory = controller_->memory();
+  // Manager and follower wait meanwhile, as they do when the pilot flies.
+  signals_.flight.operator_flies = override_.has_value();
 }
 
 RequestOutcome Autopilot::swap(const SwapModule& wish) {
@@ -213,15 +207,11 @@ RequestOutcome Autopilot::swap(const SwapModule& wish) {
   for_each_slot([&]<class Base>(const ModuleSlot<Base>& slot) {
     names += (names.empty() ? "" : ", ") + std::string(slot.name);
     if (wish.slot != slot.name) return;
-    Signals seen = signals_;
-    if constexpr (std::is_same_v<Base, PathManager> || std::is_same_v<Base, TrajectoryFollower>) {
-      seen.flight = offered_flight();
-    }
     AutopilotConfig::Slot& config = config_.*slot.config;
     const bool same_kind = config.kind == wish.kind;
     outcome = exchange(std::get<std::unique_ptr<Base>&>(places()), config, wish, modules_.*slot.kinds,
-                       inheritance(wish, same_kind, parameters_, asked_), asked_in_flight_, parameters_, seen,
-                       in_flight());
+                       inheritance(wish, same_kind, parameters_, asked_), asked_in_flight_, parameters_,
+                       signals_, in_flight());
   });
   return outcome.value_or(
       RequestOutcome{false, "slot \"" + wish.slot + "\" is unknown; there are: " + names});

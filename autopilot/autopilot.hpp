@@ -75,7 +75,6 @@ class Autopilot {
   RequestOutcome swap(const SwapModule& wish);
   RequestOutcome set(const SetParameter& wish);
   RequestOutcome fly(const OverrideSetpoint& wish);
-  FlightStatus offered_flight() const;
   bool in_flight() const;
   void note_flight();
   auto places() {

@@ -139,8 +139,11 @@ TEST_F(AutopilotTest, FliesAnOperatorsSetpointWhileTheRouteWaits) {
   fly(15.0);
   EXPECT_LT((vehicle_.p_NB_N - Vector3(5, 5, -6)).norm(), 0.1);
   EXPECT_EQ(autopilot_.signals().trajectory.leg, 1u);
+  EXPECT_TRUE(autopilot_.signals().flight.setpoint_flies());
+  EXPECT_FALSE(autopilot_.signals().flight.companion_flies()) << "nobody follows the trajectory";
   ask(OverrideSetpoint{});
   step();
+  EXPECT_TRUE(autopilot_.signals().flight.companion_flies());
   EXPECT_LT((autopilot_.signals().trajectory.p_N - vehicle_.p_NB_N).norm(), 0.05) << "from where it is";
   EXPECT_TRUE(until(30.0, [](const Signals& s) { return s.trajectory.finished; }));
 }

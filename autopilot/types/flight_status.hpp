@@ -92,16 +92,22 @@ struct FlightMemory {
 struct FlightStatus {
   FlightPhase phase = FlightPhase::kDisarmed;
   PhaseCause cause = PhaseCause::kPlanned;
+  bool operator_flies = false;
   FcuStatus fcu;
   FlightMemory memory;
 
-  /// The follower's setpoints reach the motors: in the offboard phase, armed, and no axis held by the pilot.
-  bool companion_flies() const { return phase == FlightPhase::kOffboard && fcu.armed && !fcu.overridden(); }
+  /// Setpoints reach the motors: in the offboard phase, armed, and no axis held by the pilot.
+  bool setpoint_flies() const { return phase == FlightPhase::kOffboard && fcu.armed && !fcu.overridden(); }
+
+  /// The setpoints that do are the follower's.
+  bool companion_flies() const { return setpoint_flies() && !operator_flies; }
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("phase", self.phase, "1", "phase of the controller's state machine");
     visit("cause", self.cause, "1", "why it changed last");
+    visit("operator_flies", self.operator_flies, "1",
+          "a setpoint of the operator's is in the place of the follower's");
     visit("fcu", self.fcu, "", "what the FCU said last");
     visit("memory", self.memory, "", "what outlives an exchange of modules");
   }

@@ -94,11 +94,12 @@ class PanelMaker {
   std::string empty_;
 };
 
-plot::Panel axis_panel(const std::vector<ReportRun>& runs, const char* title, const char* axis) {
+/// @param setpoints  what an operator's setpoint calls this axis
+plot::Panel axis_panel(const std::vector<ReportRun>& runs, const char* title, const std::string& suffix,
+                       const std::vector<std::string>& setpoints) {
   PanelMaker maker(runs, title, "m", 0.5);
-  const std::string suffix(axis);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    maker.add(Role::kCommand, i, command_of(runs[i], kTrajectory, "p_N" + suffix), kTrajectory);
+    maker.add(Role::kCommand, i, command_of(runs[i], "p_N" + suffix, setpoints), kTrajectory);
     maker.add(Role::kTruth, i, curve_of(runs[i], kTruthTopic, "p_NB_N" + suffix), kTruthTopic);
     maker.add(Role::kEstimate, i, estimate_of(runs[i], "p_NB_N" + suffix), kEstimateTopic);
   }
@@ -112,7 +113,7 @@ Curve degrees(const Curve& curve) {
 plot::Panel heading_panel(const std::vector<ReportRun>& runs) {
   PanelMaker maker(runs, "heading", "deg", 4.0);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    maker.add(Role::kCommand, i, broken_at_wraps(degrees(command_of(runs[i], kTrajectory, "heading"))),
+    maker.add(Role::kCommand, i, broken_at_wraps(degrees(command_of(runs[i], "heading", {"heading"}))),
               kTrajectory);
     maker.add(Role::kTruth, i, broken_at_wraps(degrees(angles_of(runs[i], kTruthTopic, "q_NB")[2])),
               kTruthTopic);
@@ -124,7 +125,7 @@ plot::Panel heading_panel(const std::vector<ReportRun>& runs) {
 plot::Panel tilt_panel(const std::vector<ReportRun>& runs, const char* name, std::size_t axis) {
   PanelMaker maker(runs, name, "deg", 2.0);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    maker.add(Role::kCommand, i, degrees(setpoint_angle(runs[i], name)), kSetpoint);
+    maker.add(Role::kCommand, i, degrees(setpoint_of(runs[i], {name})), kSetpoint);
     maker.add(Role::kTruth, i, degrees(angles_of(runs[i], kTruthTopic, "q_NB")[axis]), kTruthTopic);
     maker.add(Role::kEstimate, i, degrees(estimate_of(runs[i], name)), kEstimateTopic);
   }
@@ -147,7 +148,7 @@ plot::Panel speed_panel(const std::vector<ReportRun>& runs) {
   PanelMaker maker(runs, "speed", "m/s", 0.5);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const ReportRun& run = runs[i];
-    const auto command = [&](const std::string& axis) { return command_of(run, kTrajectory, "v_N" + axis); };
+    const auto command = [&](const std::string& axis) { return trajectory_of(run, "v_N" + axis); };
     const auto truth = [&](const std::string& axis) { return curve_of(run, kTruthTopic, "v_NB_N" + axis); };
     const auto estimate = [&](const std::string& axis) { return estimate_of(run, "v_NB_B" + axis); };
     maker.add(Role::kCommand, i, length_of(command), kTrajectory);
@@ -252,9 +253,9 @@ plot::Plane path_from_above(const std::vector<ReportRun>& runs) {
 
 plot::TimeStack position_and_heading(const std::vector<ReportRun>& runs) {
   plot::TimeStack stack{"Position and heading against command", {}, 780.0, 112.0};
-  stack.panels.push_back(axis_panel(runs, "north", ".x"));
-  stack.panels.push_back(axis_panel(runs, "east", ".y"));
-  stack.panels.push_back(axis_panel(runs, "down", ".z"));
+  stack.panels.push_back(axis_panel(runs, "north", ".x", {"p_N.x"}));
+  stack.panels.push_back(axis_panel(runs, "east", ".y", {"p_N.y"}));
+  stack.panels.push_back(axis_panel(runs, "down", ".z", {"p_N.z", "down"}));
   stack.panels.push_back(heading_panel(runs));
   return stack;
 }

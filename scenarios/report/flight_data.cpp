@@ -23,6 +23,7 @@ namespace {
 constexpr const char* kTruth = "/truth/state";
 constexpr const char* kEstimate = "/autopilot/estimate";
 constexpr const char* kTrajectory = "/autopilot/trajectory";
+constexpr const char* kSetpoint = "/autopilot/setpoint";
 constexpr const char* kFlight = "/autopilot/flight";
 constexpr std::array<const char*, 3> kAxes{".x", ".y", ".z"};
 
@@ -107,6 +108,7 @@ class WhoFlies {
   explicit WhoFlies(const ReportRun& run)
       : phase_(held(run, kFlight, "phase")),
         armed_(held(run, kFlight, "fcu.armed")),
+        operator_flies_(held(run, kFlight, "operator_flies")),
         failsafe_(held(run, kFlight, "fcu.failsafe")),
         override_(held(run, kFlight, "fcu.rc_override")) {}
 
@@ -115,6 +117,7 @@ class WhoFlies {
     autopilot::FlightStatus flight;
     flight.phase = static_cast<autopilot::FlightPhase>(static_cast<int>(phase_.at(time)));
     flight.fcu.armed = armed_.at(time) == 1.0;
+    flight.operator_flies = operator_flies_.at(time) == 1.0;
     flight.fcu.failsafe = failsafe_.at(time) == 1.0;
     flight.fcu.rc_override = static_cast<std::uint16_t>(override_.at(time));
     return flight;
@@ -123,6 +126,7 @@ class WhoFlies {
  private:
   HeldColumn phase_;
   HeldColumn armed_;
+  HeldColumn operator_flies_;
   HeldColumn failsafe_;
   HeldColumn override_;
 };
@@ -157,6 +161,16 @@ class LegUnderWay {
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
+/// Gaps elsewhere; without the topic nobody knows, and all stays.
+Curve while_flown(const ReportRun& run, Curve curve, bool (autopilot::FlightStatus::*flown)() const) {
+  if (run.log().topic(kFlight) == nullptr) return curve;
+  WhoFlies flight(run);
+  for (std::size_t i = 0; i < curve.value.size(); ++i) {
+    if (!(flight.at(curve.time[i]).*flown)()) curve.value[i] = kGap;
+  }
+  return curve;
+}
+
 Curves estimates_of(const ReportRun& run, const std::string& field) {
   Curves out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = estimate_of(run, field + kAxes[i]);
@@ -171,14 +185,39 @@ Curve curve_of(const ReportRun& run, std::string_view topic, std::string_view fi
   return {run.time(topic), value};
 }
 
-Curve command_of(const ReportRun& run, std::string_view topic, std::string_view field) {
-  Curve out = curve_of(run, topic, field);
-  const std::vector<double>& valid = run.column(topic, "valid");
-  const bool knows_who_flies = run.log().topic(kFlight) != nullptr;
-  WhoFlies flight(run);
+Curve trajectory_of(const ReportRun& run, std::string_view field) {
+  Curve out = curve_of(run, kTrajectory, field);
+  const std::vector<double>& valid = run.column(kTrajectory, "valid");
+  for (std::size_t i = 0; i < std::min(out.value.size(), valid.size()); ++i) {
+    if (valid[i] == 0.0) out.value[i] = kGap;
+  }
+  return while_flown(run, std::move(out), &autopilot::FlightStatus::companion_flies);
+}
+
+Curve setpoint_of(const ReportRun& run, const std::vector<std::string>& names) {
+  Curve out;
+  const LogTopic* topic = run.log().topic(kSetpoint);
+  if (topic == nullptr) return out;
+  for (const std::string& field : topic->fields()) {
+    const auto ends_field = [&](const std::string& name) { return field.ends_with("." + name); };
+    if (std::none_of(names.begin(), names.end(), ends_field)) continue;
+    const Curve here = curve_of(run, kSetpoint, field);
+    if (out.empty()) out = here;
+    for (std::size_t i = 0; i < here.value.size(); ++i) {
+      if (std::isfinite(here.value[i])) out.value[i] = here.value[i];
+    }
+  }
+  return while_flown(run, std::move(out), &autopilot::FlightStatus::setpoint_flies);
+}
+
+Curve command_of(const ReportRun& run, std::string_view field, const std::vector<std::string>& names) {
+  const Curve by_operator = setpoint_of(run, names);
+  Curve out = trajectory_of(run, field);
+  if (out.empty()) return by_operator;
+  std::size_t next = 0;  // the first setpoint after t
   for (std::size_t i = 0; i < out.value.size(); ++i) {
-    const bool none = i < valid.size() && valid[i] == 0.0;
-    if (none || (knows_who_flies && !flight.at(out.time[i]).companion_flies())) out.value[i] = kGap;
+    while (next < by_operator.time.size() && by_operator.time[next] <= out.time[i]) ++next;
+    if (std::isnan(out.value[i]) && next > 0) out.value[i] = by_operator.value[next - 1];
   }
   return out;
 }
@@ -189,22 +228,6 @@ Curve estimate_of(const ReportRun& run, std::string_view field) {
   const std::vector<double>& health = run.column(kEstimate, "health");
   for (std::size_t i = 0; i < std::min(out.value.size(), health.size()); ++i) {
     if (health[i] == kNone) out.value[i] = kGap;
-  }
-  return out;
-}
-
-Curve setpoint_angle(const ReportRun& run, const std::string& angle) {
-  constexpr const char* kSetpoint = "/autopilot/setpoint";
-  Curve out;
-  const LogTopic* topic = run.log().topic(kSetpoint);
-  if (topic == nullptr) return out;
-  for (const std::string& field : topic->fields()) {
-    if (!field.ends_with("." + angle)) continue;
-    const Curve here = command_of(run, kSetpoint, field);
-    if (out.empty()) out = here;
-    for (std::size_t i = 0; i < here.value.size(); ++i) {
-      if (std::isfinite(here.value[i])) out.value[i] = here.value[i];
-    }
   }
   return out;
 }
@@ -236,6 +259,16 @@ Curves position_error(const ReportRun& run) {
   Curves out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = difference(estimate[i], truth[i], false);
   return out;
+}
+
+std::optional<double> height_apart(const ReportRun& run) {
+  const Curve down = position_error(run)[2];
+  HeldColumn in_contact = held(run, kTruth, "in_contact");
+  for (std::size_t i = 0; i < down.value.size(); ++i) {
+    if (!std::isfinite(down.value[i])) continue;
+    return in_contact.at(down.time[i]) == 1.0 ? std::optional(down.value[i]) : std::nullopt;
+  }
+  return std::nullopt;
 }
 
 Curves velocity_error(const ReportRun& run) {

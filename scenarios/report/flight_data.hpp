@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,17 +22,20 @@ using Curves = std::array<Curve, 3>;
 /// What the log says about a column, with its times; empty when it says nothing.
 Curve curve_of(const ReportRun& run, std::string_view topic, std::string_view field);
 
-/// What the companion was asked to do, a column of the trajectory or of the setpoint: a gap where the
-/// companion did not fly, for then nobody followed it. While it waits, the trajectory says where the vehicle
-/// is.
-Curve command_of(const ReportRun& run, std::string_view topic, std::string_view field);
+/// A column of the trajectory: a gap where the companion did not fly, for then nobody followed it. While it
+/// waits, the trajectory says where the vehicle is.
+Curve trajectory_of(const ReportRun& run, std::string_view field);
+
+/// What the controller was asked for by one of these names, `roll` or `p_N.x`, at whichever of its entry
+/// points: a gap where it was asked for no such thing, or not listened to.
+Curve setpoint_of(const ReportRun& run, const std::vector<std::string>& names);
+
+/// What the vehicle was told to follow: a column of the trajectory, or, while an operator's setpoint flew,
+/// what that says by one of `names`. A gap where neither was.
+Curve command_of(const ReportRun& run, std::string_view field, const std::vector<std::string>& names);
 
 /// A column of the estimate: a gap before there was one.
 Curve estimate_of(const ReportRun& run, std::string_view field);
-
-/// The angle that the controller was asked for, at whichever of its entry points: a gap where it was asked
-/// for none, or not listened to.
-Curve setpoint_angle(const ReportRun& run, const std::string& angle);
 
 /// Roll, pitch, heading of the quaternions `<field>.w` …, rad.
 Curves angles_of(const ReportRun& run, std::string_view topic, const std::string& field);
@@ -47,6 +51,10 @@ Curve resampled_angle(const Curve& curve, const std::vector<double>& time);
 Curves position_error(const ReportRun& run);
 Curves velocity_error(const ReportRun& run);
 Curves attitude_error(const ReportRun& run);
+
+/// The position error down with which the estimate begins on the ground, m: it counts heights from where the
+/// centre of mass stands, the truth from the ground. None when it does not begin there.
+std::optional<double> height_apart(const ReportRun& run);
 
 /// Multiplies every value.
 Curve scaled(Curve curve, double factor);

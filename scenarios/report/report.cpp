@@ -1,11 +1,16 @@
 #include "scenarios/report/report.hpp"
 
+#include <cmath>
+#include <optional>
+
 #include "scenarios/config/write_file.hpp"
 #include "scenarios/report/figures.hpp"
+#include "scenarios/report/flight_data.hpp"
 #include "scenarios/report/page_style.hpp"
 #include "scenarios/report/plot/svg.hpp"
 #include "scenarios/report/timing_html.hpp"
 #include "scenarios/report/verdict_html.hpp"
+#include "scenarios/requirements/number_text.hpp"
 
 namespace ironbird::scenarios {
 
@@ -28,6 +33,20 @@ std::string figure(const plot::TimeStack& stack, const plot::TimeFrame& frame) {
                     plot::draw(narrow, frame) + "</div>");
 }
 
+/// Where the error down comes from that is there before the vehicle moves.
+std::string about_heights(const std::vector<ReportRun>& runs) {
+  constexpr double kWorthAWord = 0.005;  // m
+  for (const ReportRun& run : runs) {
+    const std::optional<double> apart = height_apart(run);
+    if (!apart || std::abs(*apart) < kWorthAWord) continue;
+    return "<p class=\"hint\">The estimate counts heights from where the centre of mass stood, the truth "
+           "from "
+           "the ground: the position error down begins with " +
+           plot::escaped(with_unit(std::round(*apart * 1000.0) / 1000.0, "m")) + ".</p>";
+  }
+  return "";
+}
+
 std::string figures(const std::vector<ReportRun>& runs) {
   const plot::TimeFrame frame = time_frame(runs);
   plot::Plane path = path_from_above(runs);
@@ -38,12 +57,12 @@ std::string figures(const std::vector<ReportRun>& runs) {
   std::string out =
       "<section id=\"figures\"><h2>Flight</h2><p class=\"hint\">Move over a figure to read all of them at "
       "one time; "
-      "drag to zoom in time, double click to see everything. A command is drawn where the companion flies: "
-      "elsewhere nobody follows it.</p>";
+      "drag to zoom in time, double click to see everything. A command is drawn where it is followed: the "
+      "trajectory's, or what an operator's setpoint says of it.</p>";
   out += "<div class=\"pair\">" + figure(path.title, plot::legend(path), plot::draw(path)) +
          figure(position, frame) + "</div></section>";
   out += "<section>" + figure(path_errors(runs), frame) + "</section>";
-  out += "<section><h2>Estimate less truth</h2><div class=\"triple\">" +
+  out += "<section><h2>Estimate less truth</h2>" + about_heights(runs) + "<div class=\"triple\">" +
          figure(position_errors(runs), frame) + figure(velocity_errors(runs), frame) +
          figure(attitude_errors(runs), frame) + "</div></section>";
   out += "<section><h2>Vehicle</h2>" + figure(attitude_and_speed(runs), frame) +

@@ -127,6 +127,7 @@ class Director {
         health_(estimate_topic_, "health", 1.0),
         events_(log.topic("/bench/event")),
         phase_(log.topic("/autopilot/flight"), "phase", -1.0),
+        operator_flies_(log.topic("/autopilot/flight"), "operator_flies", 0.0),
         reached_(log.topic("/autopilot/trajectory"), "reached", 0.0),
         trajectory_(log.topic("/autopilot/trajectory")),
         valid_(trajectory_, "valid", 0.0),
@@ -186,8 +187,8 @@ class Director {
   void add_errors(FilmFrame& frame, double time) {
     const Vector3 wanted_N(wanted_[0].at(time), wanted_[1].at(time), wanted_[2].at(time));
     const double off = (wanted_N - frame.truth.pose.p_NB_N).norm();
-    const bool flying =
-        valid_.at(time) > 0.5 && phase_.at(time) == static_cast<double>(autopilot::FlightPhase::kOffboard);
+    const bool flying = valid_.at(time) > 0.5 && operator_flies_.at(time) < 0.5 &&
+                        phase_.at(time) == static_cast<double>(autopilot::FlightPhase::kOffboard);
     std::string line;
     const bool has_estimate = estimate_topic_ != nullptr && !estimate_topic_->time().empty() &&
                               health_.at(time) != static_cast<double>(autopilot::Health::kUninitialised);
@@ -250,6 +251,7 @@ class Director {
   HeldColumn health_;
   const LogTopic* events_;
   HeldColumn phase_;
+  HeldColumn operator_flies_;
   HeldColumn reached_;
   const LogTopic* trajectory_;
   HeldColumn valid_;

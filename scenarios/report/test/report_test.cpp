@@ -221,15 +221,35 @@ std::pair<double, double> known(const Curve& curve) {
   return span;
 }
 
+/// The value at the last time not after `time`, s.
+double at(const Curve& curve, double time) {
+  const auto next = std::upper_bound(curve.time.begin(), curve.time.end(), time);
+  return curve.value.at(static_cast<std::size_t>(next - curve.time.begin()) - 1);
+}
+
 TEST(FlightDataTest, ACommandIsThereWhileTheCompanionFlies) {
   const ReportRun run = SyntheticFlight().fly(folder("command"), "command");
   constexpr double kPeriod = 0.021;  // s, of what the log holds
   // The trajectory is valid from 2 s to 57 s; offboard are 10 s to 44 s of them.
   for (const Curve& curve :
-       {command_of(run, "/autopilot/trajectory", "p_N.x"), setpoint_angle(run, "roll")}) {
+       {trajectory_of(run, "p_N.x"), command_of(run, "p_N.x", {"p_N.x"}), setpoint_of(run, {"roll"})}) {
     EXPECT_NEAR(known(curve).first, 10.0, kPeriod);
     EXPECT_NEAR(known(curve).second, 44.0, kPeriod);
   }
+}
+
+TEST(FlightDataTest, WhileAnOperatorsSetpointFliesTheCommandIsItsOwn) {
+  SyntheticFlight flight;
+  flight.with_an_operator();
+  const ReportRun run = flight.fly(folder("operator"), "operator");
+  const Curve north = command_of(run, "p_N.x", {"p_N.x"}), down = command_of(run, "p_N.z", {"p_N.z", "down"});
+  const Curve roll = setpoint_of(run, {"roll"}), speed = trajectory_of(run, "v_N.x");
+  for (const double time : {15.0, 30.0}) {
+    for (const Curve& curve : {north, down, roll, speed}) EXPECT_TRUE(std::isfinite(at(curve, time))) << time;
+  }
+  for (const Curve& curve : {north, roll, speed}) EXPECT_TRUE(std::isnan(at(curve, 22.0)));
+  EXPECT_EQ(at(down, 22.0), -6.0);
+  EXPECT_NE(at(down, 30.0), -6.0);
 }
 
 TEST(FlightDataTest, AnEstimateIsThereSinceTheEstimatorBegan) {
@@ -252,6 +272,16 @@ TEST(FlightDataTest, ErrorsAreEstimateLessTruth) {
     EXPECT_NEAR(velocity[0].value[i], 0.0, 0.012 + kRoundOff);
     EXPECT_NEAR(attitude[2].value[i], 0.0, 0.004 + kRoundOff);
   }
+}
+
+TEST(FlightDataTest, SaysHowFarApartHeightsBegin) {
+  const ReportRun run = SyntheticFlight().fly(folder("heights"), "heights");
+  const Curve down = position_error(run)[2];
+  ASSERT_TRUE(height_apart(run));
+  EXPECT_EQ(*height_apart(run), at(down, known(down).first));
+  EXPECT_NE(*height_apart(run), 0.0);
+  const ReportRun blind = SyntheticFlight().fly(folder("heights_blind"), "blind", /*with_truth=*/false);
+  EXPECT_FALSE(height_apart(blind));
 }
 
 TEST(FlightDataTest, ResamplesLinearlyAndHoldsTheEnds) {

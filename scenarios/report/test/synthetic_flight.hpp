@@ -25,6 +25,9 @@ class SyntheticFlight {
   /// Leaves the route empty.
   void without_waypoints() { waypoints_ = false; }
 
+  /// From 20 s to 25 s the operator keeps a height of 6 m by entry 1, and the trajectory waits.
+  void with_an_operator() { operator_ = true; }
+
   /// Flies for 60 s at 200 Hz. @param with_truth  also record the truth
   ReportRun fly(const std::filesystem::path& folder, const std::string& label, bool with_truth = true);
 
@@ -34,6 +37,7 @@ class SyntheticFlight {
 
   double offset_east_;
   bool waypoints_ = true;
+  bool operator_ = false;
   simulator::Truth truth_;
   autopilot::Signals signals_;
   hil_bridge::rosflight::RosflightOutputRaw outputs_;

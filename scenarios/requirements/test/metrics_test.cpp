@@ -211,6 +211,14 @@ TEST_F(RunMetricsTest, IsNotANumberWhereNothingWasMeasured) {
   }
 }
 
+TEST_F(RunMetricsTest, DoesNotTakeAnOperatorsFlightForTheTrajectorys) {
+  signals_.flight.operator_flies = true;
+  fly(100, [](int) {});
+  for (const char* name : {"path_rms_total_m", "tracking_rms_total_m", "true_tracking_rms_total_m"}) {
+    EXPECT_TRUE(std::isnan(metric(name))) << name;
+  }
+}
+
 TEST(RunMetricsOnHardwareTest, DoesWithoutTheTruth) {
   autopilot::Signals signals;
   signals.flight.phase = autopilot::FlightPhase::kOffboard;
