@@ -197,7 +197,7 @@ void Autopilot::note_flight() {
   signals_.flight.cause = controller_->cause();
   signals_.flight.memory = controller_->memory();
   // Manager and follower wait meanwhile, as they do when the pilot flies.
-  signals_.flight.operator_flies = override_.has_value();
+  signals_.flight.operator_setpoint = override_.has_value();
 }
 
 RequestOutcome Autopilot::swap(const SwapModule& wish) {

@@ -15,7 +15,7 @@ enum class FlightPhase : std::uint8_t {
   kDisarmed,      ///< on the ground, waits for arming and a request to take off: nothing or zeros are sent
   kTakeOff,       ///< climbing on the spot
   kHold,          ///< holding a point
-  kOffboard,      ///< flying the follower's setpoint
+  kOffboard,      ///< flying the follower's setpoint, or the operator's
   kLanding,       ///< descending on the spot until the ground is felt
   kLevelDescent,  ///< descending level, on height and attitude alone, until the ground is felt
   kSilent  ///< no estimate to fly on: in the air level for a moment, then nothing is sent and the FCU decides
@@ -92,7 +92,7 @@ struct FlightMemory {
 struct FlightStatus {
   FlightPhase phase = FlightPhase::kDisarmed;
   PhaseCause cause = PhaseCause::kPlanned;
-  bool operator_flies = false;
+  bool operator_setpoint = false;
   FcuStatus fcu;
   FlightMemory memory;
 
@@ -100,13 +100,13 @@ struct FlightStatus {
   bool setpoint_flies() const { return phase == FlightPhase::kOffboard && fcu.armed && !fcu.overridden(); }
 
   /// The setpoints that do are the follower's.
-  bool companion_flies() const { return setpoint_flies() && !operator_flies; }
+  bool companion_flies() const { return setpoint_flies() && !operator_setpoint; }
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("phase", self.phase, "1", "phase of the controller's state machine");
     visit("cause", self.cause, "1", "why it changed last");
-    visit("operator_flies", self.operator_flies, "1",
+    visit("operator_setpoint", self.operator_setpoint, "1",
           "a setpoint of the operator's is in the place of the follower's");
     visit("fcu", self.fcu, "", "what the FCU said last");
     visit("memory", self.memory, "", "what outlives an exchange of modules");

@@ -30,8 +30,10 @@ RunFolder::RunFolder(std::filesystem::path path) : path_(std::move(path)) {
 }
 
 RunFolder::~RunFolder() {
+  // While it is held, since another run may be about to take it; and by its name only where that is still its
+  // name.
   std::error_code not_empty;
-  std::filesystem::remove(path_, not_empty);  // while it is held: another run may be about to take it
+  if (is_named()) std::filesystem::remove(path_, not_empty);
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
@@ -39,15 +41,19 @@ bool RunFolder::hold() {
   descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor_ < 0) return errno != ENOENT;  // one that may not be read may still be written to
   const bool taken = ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  struct stat held {};
-  struct stat named {};
-  const bool same = ::fstat(descriptor_, &held) == 0 && ::stat(path_.c_str(), &named) == 0 &&
-                    held.st_ino == named.st_ino && held.st_dev == named.st_dev;
-  if (same && !taken) return true;
+  const bool named = is_named();
+  if (named && !taken) return true;
   ::close(std::exchange(descriptor_, -1));
-  if (!taken) return false;  // the run before has just removed it
+  if (!named) return false;  // the run before has just removed it
   throw UserError(path_.string() + ": another run is writing its results here; wait for its end, or choose " +
                   "another folder with --out");
+}
+
+bool RunFolder::is_named() const {
+  struct stat held {};
+  struct stat named {};
+  return ::fstat(descriptor_, &held) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+         held.st_ino == named.st_ino && held.st_dev == named.st_dev;
 }
 
 }  // namespace ironbird::scenarios

@@ -19,8 +19,10 @@ class RunFolder {
   ~RunFolder();
 
  private:
-  /// @return is the folder that is held still the one of this name?
+  /// @return false: the folder was removed meanwhile. @throws UserError when another run holds it
   bool hold();
+  /// Is the folder that is held still the one of this name?
+  bool is_named() const;
 
   std::filesystem::path path_;
   int descriptor_ = -1;

@@ -13,6 +13,7 @@
 #include "autopilot/math/angles.hpp"
 #include "autopilot/math/local_map.hpp"
 #include "autopilot/path_manager/motion.hpp"
+#include "autopilot/path_planner/waypoint_planner.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 
 namespace ironbird::scenarios {
@@ -193,7 +194,7 @@ class Forecast {
   const Scenario& scenario_;
   autopilot::MotionLimits limits_;
   autopilot::CascadedControllerParams controller_;
-  double return_height_ = 5.0;  // m
+  double return_height_ = autopilot::WaypointPlannerParams{}.return_height;  // m
   Moment take_off_;
   std::vector<Stop> stops_;  // where the route begins, and its waypoints
   bool lands_ = false;

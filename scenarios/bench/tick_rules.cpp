@@ -9,6 +9,7 @@
 
 #include "scenarios/config/file_search.hpp"
 #include "scenarios/config/shortest.hpp"
+#include "simulator/sensors/schedule.hpp"
 
 namespace ironbird::scenarios {
 
@@ -19,24 +20,28 @@ constexpr const char* kTick = "fcu.tick";
 constexpr std::int64_t kLeastTick = 100'000;
 constexpr std::int64_t kGreatestTick = 20'000'000;
 constexpr std::int64_t kMicrosecond = 1000;
-/// A rate written by hand, for example 133.333 Hz, means the period it rounds to.
-constexpr double kRateTolerance = 1e-5;
-
 /// What has to last a whole number of ticks.
 struct Span {
   std::string path;
-  double length = 0.0;  ///< ns
+  double length = 0.0;     ///< ns
+  double tolerance = 0.0;  ///< of the length
 };
+
+/// Of the pilot's frames, as the virtual firmware takes it.
+constexpr double kRcTolerance = 1e-9;
 
 std::vector<Span> spans(const Scenario& scenario) {
   std::vector<Span> spans;
   simulator::SensorSuiteParams::describe(
       scenario.sensors, [&](const char* name, const auto& sensor, const auto&...) {
         if (sensor.timing.enabled)
-          spans.push_back({std::string("sensors.") + name + ".timing.rate", 1e9 / sensor.timing.rate});
+          spans.push_back({std::string("sensors.") + name + ".timing.rate", 1e9 / sensor.timing.rate,
+                           simulator::kRateTolerance});
       });
   const FcuConfig& fcu = scenario.fcu;
-  spans.push_back({"fcu.rc_rate", 1e9 / fcu.rc_rate});
+  // A unit of its own has its own radio and line.
+  if (fcu.kind == FcuKind::kHil && !fcu.has_own_unit()) return spans;
+  spans.push_back({"fcu.rc_rate", 1e9 / fcu.rc_rate, kRcTolerance});
   spans.push_back({"fcu.uplink_latency", static_cast<double>(fcu.uplink_latency.count())});
   spans.push_back({"fcu.downlink_latency", static_cast<double>(fcu.downlink_latency.count())});
   return spans;
@@ -44,7 +49,14 @@ std::vector<Span> spans(const Scenario& scenario) {
 
 bool is_whole(const Span& span, std::int64_t tick) {
   const double ticks = span.length / static_cast<double>(tick);
-  return std::abs(ticks - std::round(ticks)) <= kRateTolerance * ticks;
+  return std::abs(ticks - std::round(ticks)) <= span.tolerance * ticks;
+}
+
+/// What the span is meant to last, ns: a rate written by hand hits no period exactly.
+std::int64_t meant(const Span& span) {
+  const double microseconds = std::round(span.length / kMicrosecond);
+  const bool is_near = std::abs(span.length - microseconds * kMicrosecond) <= span.tolerance * span.length;
+  return std::llround(is_near ? microseconds * kMicrosecond : span.length);
 }
 
 std::string in_milliseconds(double nanoseconds) {
@@ -54,8 +66,7 @@ std::string in_milliseconds(double nanoseconds) {
 /// The tick nearest to `wanted` that divides all spans, ns.
 std::optional<std::int64_t> fitting_tick(const std::vector<Span>& spans, std::int64_t wanted) {
   std::int64_t whole = 0;
-  for (const Span& span : spans)
-    whole = std::gcd(whole, static_cast<std::int64_t>(std::llround(span.length)));
+  for (const Span& span : spans) whole = std::gcd(whole, meant(span));
   std::optional<std::int64_t> best;
   for (std::int64_t parts = 1; whole / parts >= kLeastTick; ++parts) {
     const std::int64_t tick = whole / parts;
@@ -78,7 +89,8 @@ bool tick_is_to_blame(const LoadedScenario& loaded, const std::string& path) {
 
 std::vector<std::string> tick_findings(const LoadedScenario& loaded) {
   const std::int64_t tick = loaded.scenario.fcu.tick.count();
-  if (tick <= 0) return {};
+  // A real vehicle has neither simulated sensors nor a simulated radio.
+  if (tick <= 0 || loaded.scenario.fcu.kind == FcuKind::kSerial) return {};
   const std::vector<Span> all = spans(loaded.scenario);
   std::vector<Span> misfits;
   std::copy_if(all.begin(), all.end(), std::back_inserter(misfits), [&](const Span& span) {

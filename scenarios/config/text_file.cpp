@@ -51,7 +51,8 @@ std::string complaint(const fs::path& file) {
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) {
     const std::string beside = neighbour(file);
-    const std::string nearest = beside.empty() ? in_library(file) : beside;
+    const bool may_be_scenario = file.extension() == ".toml" || !file.has_extension();
+    const std::string nearest = beside.empty() && may_be_scenario ? in_library(file) : beside;
     return "cannot be opened: there is no such file" +
            (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
   }

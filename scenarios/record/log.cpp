@@ -147,7 +147,7 @@ Log read_flown(const std::filesystem::path& file) {
   Log log = Log::read(file);
   if (log.end()) return log;
   throw UserError(file.string() +
-                  ": nothing can be shown of it: it holds no message; name the log of a run " + "that flew");
+                  ": nothing can be shown of it: it holds no message; name the log of a run that flew");
 }
 
 std::string what_is_lost(const Log& log, std::optional<double> flown) {

@@ -86,7 +86,7 @@ void McapReader::fail(const std::string& what) const {
 }
 
 void McapReader::pay(std::uint64_t bytes) {
-  if (!allowance_.take(bytes)) fail("what is in its chunks comes to " + allowance_.refusal());
+  if (!allowance_.take(bytes)) fail("what it holds comes to " + allowance_.refusal());
 }
 
 void McapReader::scan(std::span<const std::uint8_t> records, bool inside_chunk) {

@@ -108,7 +108,7 @@ class WhoFlies {
   explicit WhoFlies(const ReportRun& run)
       : phase_(held(run, kFlight, "phase")),
         armed_(held(run, kFlight, "fcu.armed")),
-        operator_flies_(held(run, kFlight, "operator_flies")),
+        operator_setpoint_(held(run, kFlight, "operator_setpoint")),
         failsafe_(held(run, kFlight, "fcu.failsafe")),
         override_(held(run, kFlight, "fcu.rc_override")) {}
 
@@ -117,7 +117,7 @@ class WhoFlies {
     autopilot::FlightStatus flight;
     flight.phase = static_cast<autopilot::FlightPhase>(static_cast<int>(phase_.at(time)));
     flight.fcu.armed = armed_.at(time) == 1.0;
-    flight.operator_flies = operator_flies_.at(time) == 1.0;
+    flight.operator_setpoint = operator_setpoint_.at(time) == 1.0;
     flight.fcu.failsafe = failsafe_.at(time) == 1.0;
     flight.fcu.rc_override = static_cast<std::uint16_t>(override_.at(time));
     return flight;
@@ -126,7 +126,7 @@ class WhoFlies {
  private:
   HeldColumn phase_;
   HeldColumn armed_;
-  HeldColumn operator_flies_;
+  HeldColumn operator_setpoint_;
   HeldColumn failsafe_;
   HeldColumn override_;
 };

@@ -29,7 +29,8 @@ constexpr double kEventShown = 3.0;     // s that an event's text stays in the p
 constexpr double kBladeSpeed = 40.0;    // rad/s, up to here blades turn as they do
 constexpr double kApparentSpeed = 9.0;  // rad/s that the streaks of a faster rotor seem to turn with
 constexpr double kSpeedWindow = 0.1;    // s over which the speed in the text is taken
-constexpr double kLongest = 21600.0;    // s of a film, six hours; all its pictures are planned in memory
+constexpr double kLongest =
+    86400.0;  // s, as long as a run may last; all pictures of a film are planned in memory
 constexpr std::array<double, 2> kTurn{1.0, -1.0};  // rotors turn left and right alternately
 
 const LogTopic& need(const Log& log, const char* name) {
@@ -127,7 +128,7 @@ class Director {
         health_(estimate_topic_, "health", 1.0),
         events_(log.topic("/bench/event")),
         phase_(log.topic("/autopilot/flight"), "phase", -1.0),
-        operator_flies_(log.topic("/autopilot/flight"), "operator_flies", 0.0),
+        operator_setpoint_(log.topic("/autopilot/flight"), "operator_setpoint", 0.0),
         reached_(log.topic("/autopilot/trajectory"), "reached", 0.0),
         trajectory_(log.topic("/autopilot/trajectory")),
         valid_(trajectory_, "valid", 0.0),
@@ -158,7 +159,7 @@ class Director {
     if (end - begin <= kLongest) return;
     throw UserError("film: " + shown_topic_.name() +
                     formatted(" lasts from %.1f s to %.1f s", shown_.begin(), shown_.end()) +
-                    formatted(", a film at most %.0f s", kLongest, 0.0) +
+                    ", a film at most " + std::to_string(static_cast<int>(kLongest)) + " s" +
                     ": cut the log, or take out the time stamp that is wrong");
   }
 
@@ -187,7 +188,7 @@ class Director {
   void add_errors(FilmFrame& frame, double time) {
     const Vector3 wanted_N(wanted_[0].at(time), wanted_[1].at(time), wanted_[2].at(time));
     const double off = (wanted_N - frame.truth.pose.p_NB_N).norm();
-    const bool flying = valid_.at(time) > 0.5 && operator_flies_.at(time) < 0.5 &&
+    const bool flying = valid_.at(time) > 0.5 && operator_setpoint_.at(time) < 0.5 &&
                         phase_.at(time) == static_cast<double>(autopilot::FlightPhase::kOffboard);
     std::string line;
     const bool has_estimate = estimate_topic_ != nullptr && !estimate_topic_->time().empty() &&
@@ -251,7 +252,7 @@ class Director {
   HeldColumn health_;
   const LogTopic* events_;
   HeldColumn phase_;
-  HeldColumn operator_flies_;
+  HeldColumn operator_setpoint_;
   HeldColumn reached_;
   const LogTopic* trajectory_;
   HeldColumn valid_;

@@ -64,7 +64,7 @@ struct FilmOptions {
   }
 };
 
-/// The film of a log. @throws UserError when the log lacks the poses or they last longer than six hours,
+/// The film of a log. @throws UserError when the log lacks the poses or they last longer than a day,
 /// std::invalid_argument when a cut names a camera that is not there
 FilmScript film_script(const Log& log, const FilmOptions& options);
 

@@ -12,9 +12,6 @@ namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
 
-/// A rate written by hand, for example 133.333 Hz, means the period it rounds to.
-constexpr double kRateTolerance = 1e-5;
-
 }  // namespace
 
 Time sample_period(double rate, Time tick, const std::string& path) {

@@ -10,6 +10,9 @@
 
 namespace ironbird::simulator {
 
+/// A rate written by hand, for example 133.333 Hz, means the period it rounds to. Of the period.
+constexpr double kRateTolerance = 1e-5;
+
 /// The exact period of a sensor. @param rate  Hz, > 0 @param tick  of the simulation, > 0
 /// @throws std::invalid_argument when the period is not a whole number of ticks; the message names `path` and
 /// the two nearest rates that are

@@ -103,7 +103,8 @@ INSTANTIATE_TEST_SUITE_P(Managers, TakeOverTest,
 class HoldTest : public ::testing::TestWithParam<bool> {};
 
 TEST_P(HoldTest, BrakesWithoutAJumpWheneverItIsAskedFor) {
-  for (double at = 0.1; at < 45.0; at += 0.3) {
+  constexpr double kBetween = 0.3;  // s; each needs a flight of its own, as a manager cannot be copied
+  for (double at = 0.1; at < 45.0; at += kBetween) {
     const std::unique_ptr<PathManager> manager = make(GetParam());
     PerfectFlight flight(*manager);
     flight.set(mission());

@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"SensorAndTickOfTheScenario",
                  mission_and("[fcu]\ntick = \"1 ms\"\n[sensors.imu.timing]\nrate = 300\n"),
                  "",
-                 {"bad.toml:"}},
+                 {"bad.toml:8:8: sensors.imu.timing.rate = 300 Hz, must divide"}},
         BadInput{"AngleInMetres",
                  mission_and("heading = \"3 m\"\n"),
                  "",

@@ -38,6 +38,12 @@ inline Outcome run(const std::string& words) {
   return outcome;
 }
 
+/// Has a child come to its end? It is still there to be waited for.
+inline bool has_ended(pid_t child) {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
+}
+
 /// A unit served by another process for as long as this lives.
 class Server {
  public:

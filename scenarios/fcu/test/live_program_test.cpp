@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "scenarios/fcu/test/fcu_program.hpp"
 #include "scenarios/record/log.hpp"
 
 namespace ironbird::scenarios {
@@ -62,10 +63,12 @@ class Process {
     std::ifstream stream(output_);
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   }
+  /// Waits no longer than the process lasts.
   bool says_within(const std::string& words, std::chrono::seconds patience) const {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (text().find(words) == std::string::npos) {
-      if (std::chrono::steady_clock::now() > end) return false;
+      if (std::chrono::steady_clock::now() > end || test::has_ended(process_))
+        return text().find(words) != std::string::npos;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     return true;

@@ -11,6 +11,7 @@ namespace ironbird::scenarios {
 namespace {
 
 using test::FcuProgramTest;
+using test::has_ended;
 using test::kMission;
 using test::Server;
 using testing::HasSubstr;
@@ -43,9 +44,12 @@ class LiveRun {
     text << std::ifstream(words_).rdbuf();
     return text.str();
   }
+  /// Waits no longer than the run lasts.
   bool says(const std::string& part, int seconds) const {
-    for (int k = 0; k < 50 * seconds && words().find(part) == std::string::npos; ++k)
+    for (int k = 0; k < 50 * seconds && words().find(part) == std::string::npos; ++k) {
+      if (process_ > 0 && has_ended(process_)) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
     return words().find(part) != std::string::npos;
   }
   /// @return as waitpid says

@@ -140,7 +140,7 @@ std::vector<WrongCase> wrong_files() {
        "byte 37: a chunk claims 1048576 bytes, compressed to 12"},
       {"SmallFileOfMuch", start + chunk_of_zeros(1000000) + chunk_of_zeros(1000000),
        "byte " + std::to_string((start + chunk_of_zeros(1000000)).size()) +
-           ": what is in its chunks comes to more than 16 MiB in memory, too much for a file of "},
+           ": what it holds comes to more than 16 MiB in memory, too much for a file of "},
       {"ChunkInChunk", start + chunk(7, 7, chunk(7, 7, "", 0), 0), "byte 37: a chunk lies inside a chunk"},
       {"CutInsideChunk", start + chunk(7, 7, records.substr(0, records.size() - 1), 0),
        "byte 37: a chunk ends inside a record"},

@@ -120,8 +120,8 @@ void SyntheticFlight::set(double t) {
   setpoint.roll = roll + gust * 0.1;
   setpoint.pitch = pitch;
   if (flying) signals_.setpoint = setpoint;
-  signals_.flight.operator_flies = operator_ && t >= 20.0 && t < 25.0;
-  if (!signals_.flight.operator_flies) return;
+  signals_.flight.operator_setpoint = operator_ && t >= 20.0 && t < 25.0;
+  if (!signals_.flight.operator_setpoint) return;
   signals_.setpoint = autopilot::VelocityHeightHeadingRate{.down = -6.0};
   trajectory.p_N = signals_.estimate.p_NB_N;
 }

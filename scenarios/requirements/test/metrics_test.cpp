@@ -212,7 +212,7 @@ TEST_F(RunMetricsTest, IsNotANumberWhereNothingWasMeasured) {
 }
 
 TEST_F(RunMetricsTest, DoesNotTakeAnOperatorsFlightForTheTrajectorys) {
-  signals_.flight.operator_flies = true;
+  signals_.flight.operator_setpoint = true;
   fly(100, [](int) {});
   for (const char* name : {"path_rms_total_m", "tracking_rms_total_m", "true_tracking_rms_total_m"}) {
     EXPECT_TRUE(std::isnan(metric(name))) << name;

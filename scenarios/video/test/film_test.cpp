@@ -1,5 +1,6 @@
 #include "scenarios/video/film.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -210,6 +211,31 @@ TEST_F(FilmTest, IsMadeFromALog) {
   EXPECT_THROW(film_script(log, options), std::invalid_argument);
 }
 
+TEST_F(FilmTest, SaysHowFarTheVehicleIsOffOnlyWhileItFollows) {
+  {
+    simulator::Truth truth;
+    autopilot::Signals signals;
+    signals.flight.phase = autopilot::FlightPhase::kOffboard;
+    signals.trajectory.valid = true;
+    Recorder recorder(folder_ / "flight.mcap");
+    recorder.add("/truth/state", truth, std::chrono::milliseconds(10));
+    recorder.add("/autopilot/flight", signals.flight, std::chrono::milliseconds(10));
+    recorder.add("/autopilot/trajectory", signals.trajectory, std::chrono::milliseconds(10));
+    for (int i = 0; i <= 100; ++i) {
+      signals.flight.operator_setpoint = i >= 50;
+      recorder.observe(std::chrono::milliseconds(10 * i));
+    }
+    recorder.close();
+  }
+  FilmOptions options;
+  options.vehicle_scene = IRONBIRD_SOURCE_DIR "/models/x650/scene.xml";
+  options.field = IRONBIRD_SOURCE_DIR "/models/fields/yard.xml";
+  const FilmScript script = film_script(Log::read(folder_ / "flight.mcap"), options);
+  EXPECT_EQ(script.frames[12].captions.back(), "tracking off 0.00 m");
+  EXPECT_THAT(script.frames[18].captions.back(), ::testing::StartsWith("height"))
+      << "an operator's setpoint flies";
+}
+
 TEST_F(FilmTest, IsNotMadeOfPosesThatLastForCenturies) {
   const auto log_until = [&](std::chrono::nanoseconds last) {
     simulator::Truth truth;
@@ -224,14 +250,14 @@ TEST_F(FilmTest, IsNotMadeOfPosesThatLastForCenturies) {
   options.vehicle_scene = IRONBIRD_SOURCE_DIR "/models/x650/scene.xml";
   options.field = IRONBIRD_SOURCE_DIR "/models/fields/yard.xml";
   options.frame_rate = 1;
-  EXPECT_EQ(film_script(log_until(std::chrono::hours(6)), options).frames.size(), 21601U);
+  EXPECT_EQ(film_script(log_until(std::chrono::hours(24)), options).frames.size(), 86401U);
   try {
     film_script(log_until(std::chrono::hours(24 * 365 * 200)), options);
     FAIL() << "a film of two hundred years";
   } catch (const UserError& error) {
     EXPECT_STREQ(
         error.what(),
-        "film: /truth/state lasts from 0.0 s to 6307200000.0 s, a film at most 21600 s: cut the log, or "
+        "film: /truth/state lasts from 0.0 s to 6307200000.0 s, a film at most 86400 s: cut the log, or "
         "take out the time stamp that is wrong");
   }
   options.end = 2.0;
