@@ -17,6 +17,12 @@ target_include_directories(ironbird_options INTERFACE ${PROJECT_SOURCE_DIR})
 # Eigen's vectorised sums would otherwise depend on the optimisation level's choice of alignment.
 target_compile_definitions(ironbird_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MPL2_ONLY)
 
+# Sanitised programs bring their own malloc, need the sanitizers' symbols, are slow and give way to others.
+set(sanitised OFF)
+if(CMAKE_CXX_FLAGS_RELWITHDEBINFO MATCHES "-fsanitize=")
+  set(sanitised ON)
+endif()
+
 # IRONBIRD_PRECOMPILED_HEADERS names whose foreign headers (Eigen, standard library, GoogleTest) are read once a build
 # instead of once a file: `tests`, `libraries`. Where neither is named a file that forgot an include is found.
 function(ironbird_precompiled whose)
@@ -92,7 +98,7 @@ function(ironbird_test)
     set(arg_TIMEOUT 120)
   endif()
   set(discovery 60)
-  if(IRONBIRD_UNIT_TESTS_ONLY)  # sanitised: slow, and giving way to others
+  if(sanitised)
     math(EXPR arg_TIMEOUT "5 * ${arg_TIMEOUT}")
     math(EXPR discovery "5 * ${discovery}")
   endif()

@@ -71,7 +71,7 @@ class CoreTime {
   static void tick() {
     seconds_ = seconds_ + 1;
     if (seconds_ <= kMost) return;
-    constexpr std::string_view kSays = "does not hold: an input takes less than 10 s of a core\n";
+    constexpr std::string_view kSays = "does not hold: an input takes a few seconds of a core at most\n";
     (void)!::write(STDERR_FILENO, kSays.data(), kSays.size());
     std::abort();  // libFuzzer then keeps the input
   }

@@ -44,7 +44,7 @@ Time rc_period(const VirtualFcuConfig& config) {
   }
   const double ticks = 1e9 / config.rc_rate / static_cast<double>(config.tick.count());
   const double whole = std::round(ticks);
-  if (whole < 1.0 || std::fabs(ticks - whole) > 1e-9 * whole) {
+  if (whole < 1.0 || std::fabs(ticks - whole) > VirtualFcuConfig::kRcTolerance * whole) {
     throw std::invalid_argument("fcu.rc_rate = " + std::to_string(config.rc_rate) +
                                 " Hz, must have a period of whole ticks");
   }

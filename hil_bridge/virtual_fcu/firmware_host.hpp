@@ -17,6 +17,11 @@ namespace ironbird::hil_bridge {
 
 /// How the virtual FCU is set up.
 struct VirtualFcuConfig {
+  static constexpr Time kLeastTick = std::chrono::microseconds(100);
+  static constexpr Time kGreatestTick = std::chrono::milliseconds(20);
+  /// Of the period of the pilot's frames, which has to be whole ticks.
+  static constexpr double kRcTolerance = 1e-9;
+
   std::vector<virtual_fcu::ParameterOverride> parameters;
   Time tick = std::chrono::microseconds(2500);
   double rc_rate = 100.0;
@@ -32,7 +37,8 @@ struct VirtualFcuConfig {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("parameters", self.parameters, "", "firmware parameters that are not at their default");
-    visit("tick", self.tick, "ns", "period of the IMU and of the control loop, whole microseconds", 1e5, 2e7);
+    visit("tick", self.tick, "ns", "period of the IMU and of the control loop, whole microseconds",
+          static_cast<double>(kLeastTick.count()), static_cast<double>(kGreatestTick.count()));
     visit("rc_rate", self.rc_rate, "Hz",
           "frames of the pilot's receiver; the period is a whole number of ticks", 0.1, 1000.0);
     visit("rc_every_pass", self.rc_every_pass, "1",

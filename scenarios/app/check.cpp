@@ -24,14 +24,14 @@ struct CheckArguments {
   bool pictures = false;
 };
 
-/// What is wrong with one file: what loading finds, then what making the objects of a run finds, then what
-/// drawing it would.
+/// What is wrong with one file: what loading finds, then what making the objects of a run finds, unless they
+/// need a unit elsewhere, then what drawing it would.
 Failure failure_in(const std::string& file, const Overrides& overrides, bool pictures,
                    const autopilot::Modules& modules, std::size_t& count) {
   try {
     const LoadedScenario loaded = load_scenario(file, overrides, modules);
     try {
-      const Bench bench(loaded, modules, {});
+      if (loaded.scenario.fcu.has_own_unit()) const Bench possible(loaded, modules, {});
       if (pictures || has_scene(loaded)) check_scene(loaded);
     } catch (const std::invalid_argument& error) {
       throw loaded.located(error);

@@ -63,8 +63,7 @@ void carry_out(const RunJob& job, const autopilot::Modules& modules, RunListener
   const std::filesystem::path& folder = job.name.folder;
   if (job.products.video || job.products.snapshots) check_scene(*job.loaded);
   // A run that cannot be wired leaves the results of an earlier one alone.
-  const FcuConfig& fcu = job.loaded->scenario.fcu;
-  const bool own_unit = fcu.kind != FcuKind::kSerial && (fcu.kind != FcuKind::kHil || fcu.has_own_unit());
+  const bool own_unit = job.loaded->scenario.fcu.has_own_unit();
   if (own_unit) const Bench possible(*job.loaded, modules, {});
   const RunFolder held(folder);
   remove_old_products(folder);

@@ -7,7 +7,6 @@
 #include "scenarios/bench/tick_rules.hpp"
 #include "scenarios/config/include.hpp"
 #include "scenarios/config/nearest_name.hpp"
-#include "scenarios/config/shortest.hpp"
 #include "scenarios/config/toml_reader.hpp"
 
 namespace ironbird::scenarios {
@@ -114,9 +113,6 @@ class AutopilotReader {
   void check_period(autopilot::Time period, const std::string& path) {
     const auto tick = loaded_.scenario.fcu.tick;
     if (tick.count() <= 0 || period.count() % tick.count() == 0) return;
-    const auto in_milliseconds = [](autopilot::Time time) {
-      return shortest(static_cast<double>(time.count()) / 1e6) + " ms";
-    };
     const std::string shown = path + ".period = " + in_milliseconds(period);
     if (tick_is_to_blame(loaded_, path + ".period")) {
       return report("fcu.tick = " + in_milliseconds(tick) + ": must divide " + shown + " (" +

@@ -64,23 +64,21 @@ class Forecast {
   };
 
   void take_limits() {
-    const auto take = [&](const std::string& slot, const std::string& kind, const std::string& name,
-                          double& value) {
+    const auto take = [&](const std::string& slot, const std::string& kind, auto& params) {
       const ModuleSettings* settings = loaded_.settings_of(slot, kind);
       if (settings == nullptr) return;
-      for (const auto& [path, setting] : settings->values) {
-        const auto* number = std::get_if<double>(&setting);
-        if (number != nullptr && path == slot + "." + name) value = *number;
-      }
-    };
-    const auto take_all = [&](const std::string& slot, const std::string& kind, auto& params) {
-      params.describe(params, [&](const char* name, auto& value, const auto&...) {
-        if constexpr (std::is_same_v<decltype(value), double&>) take(slot, kind, name, value);
+      params.describe(params, [&]<class Value>(const char* name, Value& value, const auto&...) {
+        for (const auto& [path, setting] : settings->values) {
+          const auto* const set = std::get_if<double>(&setting);
+          if constexpr (std::is_same_v<Value, double>) {
+            if (set != nullptr && path == slot + "." + name) value = *set;
+          }
+        }
       });
     };
-    take_all("path_manager", loaded_.autopilot.path_manager.kind, limits_);
-    take_all("controller", loaded_.autopilot.controller.kind, controller_);
-    take("path_planner", loaded_.autopilot.path_planner.kind, "return_height", return_height_);
+    take("path_manager", loaded_.autopilot.path_manager.kind, limits_);
+    take("controller", loaded_.autopilot.controller.kind, controller_);
+    take("path_planner", loaded_.autopilot.path_planner.kind, planner_);
   }
 
   /// The end of a leg from rest to rest.
@@ -157,7 +155,7 @@ class Forecast {
     if (const Moment asked = first_wish(OperatorWish::kLand)) consider(stop_before(*asked));
     if (const Moment asked = first_wish(OperatorWish::kReturnToLaunch)) {
       const Stop from = stop_before(*asked);
-      const double height = std::max(return_height_, -from.p_N.z());
+      const double height = std::max(planner_.return_height, -from.p_N.z());
       const Stop above = after(from, {from.p_N.x(), from.p_N.y(), -height}, from.heading, 0.0);
       consider(after(above, {scenario_.start.p_N[0], scenario_.start.p_N[1], -height}, 0.0, 0.0));
     }
@@ -194,7 +192,7 @@ class Forecast {
   const Scenario& scenario_;
   autopilot::MotionLimits limits_;
   autopilot::CascadedControllerParams controller_;
-  double return_height_ = autopilot::WaypointPlannerParams{}.return_height;  // m
+  autopilot::WaypointPlannerParams planner_;
   Moment take_off_;
   std::vector<Stop> stops_;  // where the route begins, and its waypoints
   bool lands_ = false;

@@ -75,8 +75,11 @@ struct FcuConfig : hil_bridge::VirtualFcuConfig {
   hil_bridge::transport::LinkFaultConfig link_fault;
   hil_bridge::transport::LinkFaultConfig bus_fault;
 
-  /// Hardware in the loop with a virtual unit in this process.
-  bool has_own_unit() const { return line.empty() || line == kOwnUnit; }
+  /// The unit is a virtual one in this process: flying it needs nothing else, and moves nothing else.
+  bool has_own_unit() const {
+    if (kind == FcuKind::kHil) return line.empty() || line == kOwnUnit;
+    return kind != FcuKind::kSerial;
+  }
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {

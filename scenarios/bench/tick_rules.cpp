@@ -16,19 +16,13 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr const char* kTick = "fcu.tick";
-// ns; the bounds of fcu.tick, and the firmware's clock counts microseconds.
-constexpr std::int64_t kLeastTick = 100'000;
-constexpr std::int64_t kGreatestTick = 20'000'000;
-constexpr std::int64_t kMicrosecond = 1000;
+constexpr std::int64_t kMicrosecond = 1000;  // ns; the firmware's clock counts them
 /// What has to last a whole number of ticks.
 struct Span {
   std::string path;
   double length = 0.0;     ///< ns
   double tolerance = 0.0;  ///< of the length
 };
-
-/// Of the pilot's frames, as the virtual firmware takes it.
-constexpr double kRcTolerance = 1e-9;
 
 std::vector<Span> spans(const Scenario& scenario) {
   std::vector<Span> spans;
@@ -40,8 +34,8 @@ std::vector<Span> spans(const Scenario& scenario) {
       });
   const FcuConfig& fcu = scenario.fcu;
   // A unit of its own has its own radio and line.
-  if (fcu.kind == FcuKind::kHil && !fcu.has_own_unit()) return spans;
-  spans.push_back({"fcu.rc_rate", 1e9 / fcu.rc_rate, kRcTolerance});
+  if (!fcu.has_own_unit()) return spans;
+  spans.push_back({"fcu.rc_rate", 1e9 / fcu.rc_rate, FcuConfig::kRcTolerance});
   spans.push_back({"fcu.uplink_latency", static_cast<double>(fcu.uplink_latency.count())});
   spans.push_back({"fcu.downlink_latency", static_cast<double>(fcu.downlink_latency.count())});
   return spans;
@@ -59,8 +53,8 @@ std::int64_t meant(const Span& span) {
   return std::llround(is_near ? microseconds * kMicrosecond : span.length);
 }
 
-std::string in_milliseconds(double nanoseconds) {
-  return shortest(std::round(nanoseconds) / 1e6) + " ms";
+std::chrono::nanoseconds rounded(double nanoseconds) {
+  return std::chrono::nanoseconds(std::llround(nanoseconds));
 }
 
 /// The tick nearest to `wanted` that divides all spans, ns.
@@ -68,15 +62,19 @@ std::optional<std::int64_t> fitting_tick(const std::vector<Span>& spans, std::in
   std::int64_t whole = 0;
   for (const Span& span : spans) whole = std::gcd(whole, meant(span));
   std::optional<std::int64_t> best;
-  for (std::int64_t parts = 1; whole / parts >= kLeastTick; ++parts) {
+  for (std::int64_t parts = 1; whole / parts >= FcuConfig::kLeastTick.count(); ++parts) {
     const std::int64_t tick = whole / parts;
-    if (whole % (parts * kMicrosecond) != 0 || tick > kGreatestTick) continue;
+    if (whole % (parts * kMicrosecond) != 0 || tick > FcuConfig::kGreatestTick.count()) continue;
     if (!best || std::abs(tick - wanted) < std::abs(*best - wanted)) best = tick;
   }
   return best;
 }
 
 }  // namespace
+
+std::string in_milliseconds(std::chrono::nanoseconds time) {
+  return shortest(static_cast<double>(time.count()) / 1e6) + " ms";
+}
 
 bool tick_is_to_blame(const LoadedScenario& loaded, const std::string& path) {
   const std::string vehicle = readable(loaded.vehicle_path).string() + "/";
@@ -100,11 +98,11 @@ std::vector<std::string> tick_findings(const LoadedScenario& loaded) {
   const Span& first = misfits.front();
   const auto place = loaded.places.find(first.path);
   const auto remedy = fitting_tick(all, tick);
-  return {std::string(kTick) + " = " + in_milliseconds(static_cast<double>(tick)) + ": must divide " +
-          in_milliseconds(first.length) + " of " + first.path +
+  return {std::string(kTick) + " = " + in_milliseconds(loaded.scenario.fcu.tick) + ": must divide " +
+          in_milliseconds(rounded(first.length)) + " of " + first.path +
           (place == loaded.places.end() ? "" : " (" + place->second + ")") +
           (misfits.size() > 1 ? ", and " + std::to_string(misfits.size() - 1) + " more" : "") +
-          (remedy ? "; take " + in_milliseconds(static_cast<double>(*remedy)) : "")};
+          (remedy ? "; take " + in_milliseconds(std::chrono::nanoseconds(*remedy)) : "")};
 }
 
 }  // namespace ironbird::scenarios

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
 #include "scenarios/bench/scenario_loader.hpp"
 
 namespace ironbird::scenarios {
+
+/// A period as messages show it: `2.5 ms`.
+std::string in_milliseconds(std::chrono::nanoseconds time);
 
 /// Is the tick the scenario's choice, or the command line's, and `path`, which it must suit, the vehicle's?
 /// Then the tick is what is wrong when the two do not go together.

@@ -15,34 +15,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file beside `file` whose name is nearest to its own, or nothing.
-std::string neighbour(const fs::path& file) {
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    if (at->path().extension() == ".toml") names.push_back(at->path().stem().string());
-  }
-  std::sort(names.begin(), names.end());  // a folder has no order of its own
-  const std::string nearest = nearest_name(file.stem().string(), names);
-  return nearest.empty() ? "" : (file.parent_path() / (nearest + ".toml")).string();
-}
-
-/// The scenario of the library whose name is nearest to that of `file`, or nothing.
-std::string in_library(const fs::path& file) {
+/// Of the TOML files that this iterator comes by, the one whose name is nearest to that of `file`, or
+/// nothing.
+template <class Iterator>
+fs::path nearest_of(const fs::path& folder, const fs::path& file) {
   std::vector<fs::path> files;
   std::error_code error;
-  for (fs::recursive_directory_iterator at(library_folder(), error), end; !error && at != end;
-       at.increment(error)) {
+  for (Iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     if (at->path().extension() == ".toml") files.push_back(at->path());
   }
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end());  // a folder has no order of its own
   std::vector<std::string> names;
   for (const fs::path& known : files) names.push_back(known.stem().string());
-  const std::string nearest = nearest_name(file.stem().string(), names);
-  const auto found = std::find(names.begin(), names.end(), nearest);
-  return found == names.end() ? ""
-                              : readable(files[static_cast<std::size_t>(found - names.begin())]).string();
+  const auto found = std::find(names.begin(), names.end(), nearest_name(file.stem().string(), names));
+  return found == names.end() ? fs::path() : files[static_cast<std::size_t>(found - names.begin())];
+}
+
+/// A file that `file` may have meant: one beside it or, of a scenario, one of the library. Or nothing.
+std::string meant_instead_of(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const fs::path beside = nearest_of<fs::directory_iterator>(folder, file);
+  if (!beside.empty()) return (file.parent_path() / beside.filename()).string();
+  const bool may_be_scenario = file.extension() == ".toml" || !file.has_extension();
+  if (!may_be_scenario) return "";
+  return readable(nearest_of<fs::recursive_directory_iterator>(library_folder(), file)).string();
 }
 
 /// Why the file cannot be taken, or nothing.
@@ -50,9 +46,7 @@ std::string complaint(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) {
-    const std::string beside = neighbour(file);
-    const bool may_be_scenario = file.extension() == ".toml" || !file.has_extension();
-    const std::string nearest = beside.empty() && may_be_scenario ? in_library(file) : beside;
+    const std::string nearest = meant_instead_of(file);
     return "cannot be opened: there is no such file" +
            (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
   }

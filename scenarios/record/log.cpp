@@ -152,15 +152,14 @@ Log read_flown(const std::filesystem::path& file) {
 
 std::string what_is_lost(const Log& log, std::optional<double> flown) {
   if (!log.truncated()) return "";
-  const std::optional<double> end = log.end();
-  if (!end) return "the log was cut short before its first message: nothing of the flight is in it";
+  const double end = log.end().value_or(0.0);
   std::array<char, 120> text{};
-  if (flown && *flown > *end) {
+  if (flown && *flown > end) {
     std::snprintf(text.data(), text.size(),
-                  "the log was cut short at %.4g s of %.4g s: the last %.4g s are lost", *end, *flown,
-                  *flown - *end);
+                  "the log was cut short at %.4g s of %.4g s: the last %.4g s are lost", end, *flown,
+                  *flown - end);
   } else {
-    std::snprintf(text.data(), text.size(), "the log was cut short at %.4g s: what came after is lost", *end);
+    std::snprintf(text.data(), text.size(), "the log was cut short at %.4g s: what came after is lost", end);
   }
   return text.data();
 }

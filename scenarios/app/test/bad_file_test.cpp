@@ -25,6 +25,23 @@ TEST(BadFileTest, MissingScenarioThatIsInTheLibraryIsFound) {
                            "'scenarios/library/paper/three_waypoints.toml'?\n");
 }
 
+/// Says so of the mission when these settings are made.
+testing::AssertionResult has_no_finding(const std::string& settings) {
+  const TemporaryFolder folder;
+  const Said said = run_shell(kProgram + " check " + folder.write("a.toml", kMission) + settings);
+  return (said.exit_code == 0 ? testing::AssertionSuccess() : testing::AssertionFailure()) << said.text;
+}
+
+TEST(BadFileTest, AUnitElsewhereNeedNotBeThereForACheck) {
+  EXPECT_TRUE(has_no_finding(" --set fcu.kind=hil --set fcu.line=/nowhere/unit --set fcu.motors=output_raw"));
+}
+
+TEST(BadFileTest, TheTickOfARealVehicleNeedNotSuitSimulatedSensors) {
+  constexpr const char* kTick = " --set fcu.tick='2 ms'";
+  EXPECT_TRUE(has_no_finding(std::string(" --set fcu.kind=serial --set fcu.line=/nowhere/unit") + kTick));
+  EXPECT_FALSE(has_no_finding(kTick)) << "the simulated sensors sample every 2.5 ms";
+}
+
 TEST(BadFileTest, AllFindingsAreToldAtOnce) {
   const TemporaryFolder folder;
   const std::string file = folder.write("bad.toml", std::string("duratoin = 3\nseed = -1\n") + kMission);

@@ -21,6 +21,18 @@ constexpr const char* kBytesOfARunUnderWay = "1000000";
 
 class DiskTest : public ::testing::Test {
  protected:
+  /// Like a full disk: so many KiB for each file, and no signal when they are used up. The run is refused in
+  /// one line and leaves nothing.
+  Said fly_with_room_for(int room) const {
+    const Said said = run_shell("trap '' XFSZ; ulimit -f " + std::to_string(room) + "; " + kProgram +
+                                " run " + file_ + " --out " + out_.string());
+    EXPECT_EQ(said.exit_code, 2) << said.text;
+    EXPECT_EQ(said.lines(), 1) << said.text;
+    EXPECT_NE(said.text.find("flight.mcap: writing failed"), std::string::npos) << said.text;
+    EXPECT_FALSE(std::filesystem::exists(out_ / "short"));
+    return said;
+  }
+
   const TemporaryFolder folder_;
   const std::string file_ = folder_.write("short.toml", kMission);
   const std::filesystem::path out_ = folder_ / "out";
@@ -43,23 +55,12 @@ TEST_F(DiskTest, RefusesALogThatCannotBeMade) {
 }
 
 TEST_F(DiskTest, SaysOnceThatTheDiskIsFullAndLeavesNoHalfALog) {
-  // 400 KiB for each file, and no signal when they are used up: like a full disk.
-  const Said said =
-      run_shell("trap '' XFSZ; ulimit -f 400; " + kProgram + " run " + file_ + " --out " + out_.string());
-  EXPECT_EQ(said.exit_code, 2) << said.text;
-  EXPECT_EQ(said.lines(), 1) << said.text;
-  EXPECT_NE(said.text.find("flight.mcap: writing failed"), std::string::npos) << said.text;
+  const Said said = fly_with_room_for(400);
   EXPECT_NE(said.text.find("; raise the limit"), std::string::npos) << said.text;
-  EXPECT_FALSE(std::filesystem::exists(out_ / "short"));
 }
 
 TEST_F(DiskTest, SaysThatNotEvenTheFirstBytesOfALogHaveRoom) {
-  const Said said =
-      run_shell("trap '' XFSZ; ulimit -f 0; " + kProgram + " run " + file_ + " --out " + out_.string());
-  EXPECT_EQ(said.exit_code, 2) << said.text;
-  EXPECT_EQ(said.lines(), 1) << said.text;
-  EXPECT_NE(said.text.find("flight.mcap: writing failed"), std::string::npos) << said.text;
-  EXPECT_FALSE(std::filesystem::exists(out_ / "short"));
+  fly_with_room_for(0);
 }
 
 TEST_F(DiskTest, SaysThatItsOutputCouldNotBeWritten) {

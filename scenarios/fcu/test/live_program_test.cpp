@@ -23,10 +23,9 @@ namespace ironbird::scenarios {
 namespace {
 
 namespace fs = std::filesystem;
+using test::kMission;
 using testing::HasSubstr;
 using Words = std::vector<std::string>;
-
-const std::string kMission = IRONBIRD_SOURCE_DIR "/scenarios/library/paper/three_waypoints.toml";
 
 /// The program with these words, whose output goes to a file. Ends with this.
 class Process {
