@@ -151,6 +151,9 @@ void WatchLoop::finish_with_zeros(const std::string& what_happened) {
   while (clock_now() < end) {
     line_.wait(milliseconds(config_.zero_period));
     if (line_.heard_disarmed()) return say("the unit says that it is disarmed");
+    // One that was pulled out is ready at once, for ever: at this priority nothing else would have the core.
+    line_.drop_if_dead();
+    if (!line_.has_line()) return say("the line to the unit is gone: disarm it by radio");
     if (clock_now() < next) continue;
     line_.send_zero();
     next += config_.zero_period;

@@ -225,6 +225,19 @@ TEST_F(WatchdogTest, SaysThatAnArmedUnitIsLeftAfterTheLastZero) {
   EXPECT_NEAR(unit_.motor(), kPilotsMotors, kClose);
 }
 
+// A line that has gone is ready at once, for ever: waiting for its words would take the whole core from
+// everything else, the next bench among it.
+TEST_F(WatchdogTest, EndsWithoutSpinningWhenTheLineGoesBetweenItsZeros) {
+  fly(InterlockProfile::kBench);
+  bench_->signal(SIGKILL);
+  unit_.until(kPatience, [&] { return unit_.line.zeros > 0; });
+  ASSERT_GT(unit_.line.zeros, 0);
+  unit_.line.terminal.hang_up();
+  const Time took = unit_.until(kPatience, [&] { return !bench_->watchdog_lives(); });
+  EXPECT_LT(took, seconds(1));
+  EXPECT_THAT(bench_->complaints(), HasSubstr("the line to the unit is gone: disarm it by radio"));
+}
+
 TEST(WatchdogStartTest, RefusesToBeStartedBesideThreads) {
   std::thread other([] { std::this_thread::sleep_for(milliseconds(200)); });
   EXPECT_THROW(Watchdog(WatchdogConfig{}), std::runtime_error);
