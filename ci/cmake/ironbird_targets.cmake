@@ -4,6 +4,9 @@
 # optimisation level: no contraction into fused multiply-add, no fast-math, no -march=native.
 add_library(ironbird_options INTERFACE)
 target_compile_features(ironbird_options INTERFACE cxx_std_20)
+# GCC tidies its memory up while it compiles: the tenth part of its time, for memory that is there.
+target_compile_options(ironbird_options INTERFACE
+  "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-expand=200 --param ggc-min-heapsize=400000>")
 # What the compiler warns of is our business in our targets and everybody's own in a program outside this tree.
 define_property(TARGET PROPERTY IRONBIRD_OWN INITIALIZE_FROM_VARIABLE DEFAULT_IRONBIRD_OWN
                 BRIEF_DOCS "A target of this tree" FULL_DOCS "A target of this tree, built with its warnings")
@@ -24,13 +27,14 @@ if(CMAKE_CXX_FLAGS_RELWITHDEBINFO MATCHES "-fsanitize=")
 endif()
 
 # IRONBIRD_PRECOMPILED_HEADERS names whose foreign headers (Eigen, standard library, GoogleTest) are read once a build
-# instead of once a file: `tests`, `libraries`. Where neither is named a file that forgot an include is found.
+# instead of once a file: `tests`, `libraries`. Where neither is named, in the `dev` preset, a file that forgot an include is found.
+# Files that are compiled with other options need a VARIANT of their own.
 function(ironbird_precompiled whose)
-  cmake_parse_arguments(arg "" "" "HEADERS;LINKS;OPTIONS" ${ARGN})
+  cmake_parse_arguments(arg "" "VARIANT" "HEADERS;LINKS;OPTIONS" ${ARGN})
   if(NOT whose IN_LIST IRONBIRD_PRECOMPILED_HEADERS)
     return()
   endif()
-  set(target ironbird_headers_of_${whose})
+  set(target ironbird_headers_of_${whose}${arg_VARIANT})
   file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/${target}.cpp CONTENT "// Carries the precompiled headers of the ${whose}.\n")
   add_library(${target} OBJECT ${PROJECT_BINARY_DIR}/${target}.cpp)
   target_link_libraries(${target} PRIVATE ironbird_options ${arg_LINKS})
@@ -38,8 +42,9 @@ function(ironbird_precompiled whose)
   target_precompile_headers(${target} PRIVATE ${arg_HEADERS})
 endfunction()
 function(ironbird_reuse_headers target whose)
+  cmake_parse_arguments(arg "" "VARIANT" "" ${ARGN})
   if(whose IN_LIST IRONBIRD_PRECOMPILED_HEADERS)
-    target_precompile_headers(${target} REUSE_FROM ironbird_headers_of_${whose})
+    target_precompile_headers(${target} REUSE_FROM ironbird_headers_of_${whose}${arg_VARIANT})
     # GCC 12 finds fault with std::string's own operator+ (its bug 105651) and says so where it is precompiled.
     foreach(fault restrict array-bounds stringop-overflow stringop-overread)
       target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-${fault}>)
@@ -50,11 +55,21 @@ set(headers <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <algorithm> <array> <cmath>
             <limits> <map> <memory> <numbers> <optional> <span> <sstream> <stdexcept> <string> <string_view> <utility>
             <variant> <vector>)
 ironbird_precompiled(libraries HEADERS ${headers} LINKS Eigen3::Eigen)
-# Of a release build only the tests' own code, which runs once, is optimised less than what it tests.
+# The tests' own code, which runs once, is optimised less than what it tests, and no fuzz target finds its way through it.
+# In a sanitised build that of bridge and scenarios is not optimised at all. The wings' is: of an inline function, Eigen's
+# above all, the linker takes the copy that it meets first, a test's, for the library as well.
 set(test_options $<$<CONFIG:Release>:-O1>)
+if(sanitised)
+  set(test_options -O1 -fno-sanitize=fuzzer-no-link)
+  set(plain_options -O0 -fno-sanitize=fuzzer-no-link)
+endif()
 if(IRONBIRD_TESTS)
-  ironbird_precompiled(tests HEADERS ${headers} <gmock/gmock.h> <gtest/gtest.h> LINKS Eigen3::Eigen GTest::gmock
-                       OPTIONS ${test_options})
+  set(headers_of_tests ${headers} <gmock/gmock.h> <gtest/gtest.h>)
+  ironbird_precompiled(tests HEADERS ${headers_of_tests} LINKS Eigen3::Eigen GTest::gmock OPTIONS ${test_options})
+  if(sanitised)
+    ironbird_precompiled(tests VARIANT _unoptimised HEADERS ${headers_of_tests} LINKS Eigen3::Eigen GTest::gmock
+                         OPTIONS ${plain_options})
+  endif()
 endif()
 
 # ironbird_library(NAME simulator_mujoco SOURCES a.cpp ... LINKS simulator mujoco::mujoco)
@@ -106,8 +121,13 @@ function(ironbird_test)
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ironbird_options ${arg_LINKS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE IRONBIRD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_compile_options(${target} PRIVATE ${test_options})
-  ironbird_reuse_headers(${target} tests)
+  if(sanitised AND NOT CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/(autopilot|simulator)")
+    target_compile_options(${target} PRIVATE ${plain_options})
+    ironbird_reuse_headers(${target} tests VARIANT _unoptimised)
+  else()
+    target_compile_options(${target} PRIVATE ${test_options})
+    ironbird_reuse_headers(${target} tests)
+  endif()
   if(arg_WHOLE OR arg_RUNNER)
     add_test(NAME ${target} COMMAND ${arg_RUNNER} $<TARGET_FILE:${target}> WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${target} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -13,6 +12,7 @@
 #include "scenarios/app/failure.hpp"
 #include "scenarios/app/scenario_arguments.hpp"
 #include "scenarios/app/scene.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/bench/bench.hpp"
 
 namespace ironbird::scenarios {
@@ -70,12 +70,12 @@ int check(const CheckArguments& arguments, const autopilot::Modules& modules) {
 }  // namespace
 
 Verb check_verb() {
-  return {"check", "validate scenarios without flying them", [](CLI::App& app) {
+  return {"check", "validate scenarios without flying them", [](VerbOptions& options) {
             auto arguments = std::make_shared<CheckArguments>();
-            add_scenario_arguments(app, arguments->scenarios);
-            app.add_flag("--video,--snapshots", arguments->pictures,
+            add_scenario_arguments(options, arguments->scenarios);
+            options.flag("--video,--snapshots", arguments->pictures,
                          "it is to be drawn: a vehicle without a scene is a finding");
-            app.footer(
+            options.footer(
                 "Tells every finding of every file in a line of its own, `file:line:column: path = value:\n"
                 "what is wrong, what is allowed`, and ends with 2 when there is any.\n"
                 "Everything that can be known before the flight, pictures included: missing meshes too.\n"

@@ -15,6 +15,7 @@
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/failure.hpp"
 #include "scenarios/app/reproducible_math.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/config/write_file.hpp"
@@ -80,10 +81,12 @@ int run_verb_of(CLI::App& app, int argc, char** argv, const autopilot::Modules& 
                                      snapshot_verb(), fcu_verb(),   topics_verb()};
   Work chosen;
   std::vector<std::string> names;
+  VerbOptions all(app);
   for (const Verb& verb : verbs) {
     names.emplace_back(verb.name);
-    CLI::App* command = app.add_subcommand(verb.name, verb.summary);
-    command->callback([&chosen, work = verb.declare(*command)] { chosen = work; });
+    all.verb(verb.name, verb.summary, [&](VerbOptions& options) {
+      return [&chosen, work = verb.declare(options)] { chosen = work; };
+    });
   }
   if (argc < 2) {
     std::fputs(app.help().c_str(), stderr);

@@ -6,17 +6,15 @@
 
 #include "autopilot/modules.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace ironbird::scenarios {
+
+class VerbOptions;
 
 /// One verb of the program. `declare` adds its options to the given sub-command and returns what runs it.
 struct Verb {
   const char* name;
   const char* summary;
-  std::function<std::function<int(const autopilot::Modules&)>(CLI::App&)> declare;
+  std::function<std::function<int(const autopilot::Modules&)>(VerbOptions&)> declare;
 };
 
 Verb run_verb();

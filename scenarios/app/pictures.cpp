@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
@@ -7,6 +6,7 @@
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/products.hpp"
 #include "scenarios/app/terminal.hpp"
+#include "scenarios/app/verb_options.hpp"
 
 namespace ironbird::scenarios {
 
@@ -52,22 +52,22 @@ int snapshot(const SnapshotArguments& arguments) {
 }  // namespace
 
 Verb video_verb() {
-  return {"video", "make the film of a log", [](CLI::App& app) {
+  return {"video", "make the film of a log", [](VerbOptions& options) {
             auto arguments = std::make_shared<VideoArguments>();
-            app.add_option("log", arguments->log, "flight.mcap of a run")->required();
-            app.add_option("--out", arguments->out, "file to write, .mp4 or .y4m")->capture_default_str();
-            app.add_flag("--preview", arguments->preview, "quicker and plainer pictures");
-            app.footer("Example:\n  ironbird video out/three_waypoints/flight.mcap --out mission.mp4");
+            options.option("log", arguments->log, "flight.mcap of a run").required();
+            options.option("--out", arguments->out, "file to write, .mp4 or .y4m").shows_default();
+            options.flag("--preview", arguments->preview, "quicker and plainer pictures");
+            options.footer("Example:\n  ironbird video out/three_waypoints/flight.mcap --out mission.mp4");
             return [arguments](const autopilot::Modules&) { return video(*arguments); };
           }};
 }
 
 Verb snapshot_verb() {
-  return {"snapshot", "take the pictures that a log's scenario names", [](CLI::App& app) {
+  return {"snapshot", "take the pictures that a log's scenario names", [](VerbOptions& options) {
             auto arguments = std::make_shared<SnapshotArguments>();
-            app.add_option("log", arguments->log, "flight.mcap of a run")->required();
-            app.add_option("--out", arguments->out, "folder for the pictures")->capture_default_str();
-            app.footer("Example:\n  ironbird snapshot out/three_waypoints/flight.mcap");
+            options.option("log", arguments->log, "flight.mcap of a run").required();
+            options.option("--out", arguments->out, "folder for the pictures").shows_default();
+            options.footer("Example:\n  ironbird snapshot out/three_waypoints/flight.mcap");
             return [arguments](const autopilot::Modules&) { return snapshot(*arguments); };
           }};
 }

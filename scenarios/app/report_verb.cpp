@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -7,6 +6,7 @@
 
 #include "scenarios/app/command_line.hpp"
 #include "scenarios/app/exit_code.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/report/report.hpp"
 
 namespace ironbird::scenarios {
@@ -37,11 +37,11 @@ int report(const ReportArguments& arguments) {
 
 Verb report_verb() {
   return {
-      "report", "make one HTML page of one log or several", [](CLI::App& app) {
+      "report", "make one HTML page of one log or several", [](VerbOptions& options) {
         auto arguments = std::make_shared<ReportArguments>();
-        app.add_option("logs", arguments->logs, "logs; a verdict.json beside a log is shown too")->required();
-        app.add_option("--out", arguments->out, "file to write")->capture_default_str();
-        app.footer(
+        options.option("logs", arguments->logs, "logs; a verdict.json beside a log is shown too").required();
+        options.option("--out", arguments->out, "file to write").shows_default();
+        options.footer(
             "Examples:\n"
             "  ironbird report out/three_waypoints/flight.mcap\n"
             "  ironbird report out/three_waypoints/flight.mcap out/three_waypoints_ode/flight.mcap --out "

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "scenarios/app/run_summary.hpp"
 #include "scenarios/app/scenario_arguments.hpp"
 #include "scenarios/app/terminal.hpp"
+#include "scenarios/app/verb_options.hpp"
 
 namespace ironbird::scenarios {
 
@@ -128,29 +128,30 @@ int run(RunArguments arguments, const autopilot::Modules& modules) {
 }  // namespace
 
 Verb run_verb() {
-  return {"run", "fly scenarios and judge them", [](CLI::App& app) {
+  return {"run", "fly scenarios and judge them", [](VerbOptions& options) {
             auto arguments = std::make_shared<RunArguments>();
-            add_scenario_arguments(app, arguments->scenarios);
-            app.add_option("--out", arguments->out, "folder for the results")->capture_default_str();
-            app.add_option("--jobs", arguments->jobs, "runs at the same time, each in a process of its own")
-                ->check(CLI::Range(1, 256))
-                ->capture_default_str();
-            app.add_flag("--video", arguments->products.video, "make video.mp4");
-            app.add_flag("--preview", arguments->products.preview,
+            add_scenario_arguments(options, arguments->scenarios);
+            options.option("--out", arguments->out, "folder for the results").shows_default();
+            options.option("--jobs", arguments->jobs, "runs at the same time, each in a process of its own")
+                .within(1, 256)
+                .shows_default();
+            options.flag("--video", arguments->products.video, "make video.mp4");
+            options.flag("--preview", arguments->products.preview,
                          "with --video: quicker and plainer pictures");
-            app.add_flag("--snapshots", arguments->products.snapshots,
+            options.flag("--snapshots", arguments->products.snapshots,
                          "make the pictures that the scenario names");
-            app.add_flag("--no-log", arguments->no_log, "write no log and no report, only the verdict");
-            app.add_flag("--no-report", arguments->no_report, "write no report");
-            app.add_option("--junit", arguments->junit, "write a JUnit file for a build server");
-            app.add_flag("--release", arguments->live.released,
+            options.flag("--no-log", arguments->no_log, "write no log and no report, only the verdict");
+            options.flag("--no-report", arguments->no_report, "write no report");
+            options.option("--junit", arguments->junit, "write a JUnit file for a build server");
+            options.flag("--release", arguments->live.released,
                          "with fcu.kind = serial: the operator's word that the unit may be flown");
-            app.add_option("--patience", arguments->live.meeting_patience,
-                           "with fcu.kind = serial: how long to wait for the unit, s")
-                ->check(CLI::Range(0.1, 3600.0))
-                ->capture_default_str();
-            app.add_flag("--json", arguments->json, "verdicts as JSON on standard output");
-            app.footer(
+            options
+                .option("--patience", arguments->live.meeting_patience,
+                        "with fcu.kind = serial: how long to wait for the unit, s")
+                .within(0.1, 3600.0)
+                .shows_default();
+            options.flag("--json", arguments->json, "verdicts as JSON on standard output");
+            options.footer(
                 "Examples:\n"
                 "  ironbird run scenarios/library/paper/three_waypoints.toml --video\n"
                 "  ironbird run scenarios/library/weather/*.toml --jobs 2 --seed 1:20\n"

@@ -1,10 +1,10 @@
 #include "scenarios/app/scenario_arguments.hpp"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <numeric>
 #include <string_view>
 
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/bench/scenario.hpp"
 #include "scenarios/config/config_error.hpp"
 
@@ -26,13 +26,12 @@ std::uint64_t parse_seed(std::string_view number, const std::string& text) {
 
 }  // namespace
 
-void add_scenario_arguments(CLI::App& app, ScenarioArguments& arguments) {
-  app.add_option("scenarios", arguments.files, "scenario files")->required();
-  app.add_option("--set", arguments.settings, "changes the scenario; may be repeated")
-      ->allow_extra_args(false)
-      ->take_all()
-      ->type_name("PATH=VALUE");
-  app.add_option("--seed", arguments.seeds,
+void add_scenario_arguments(VerbOptions& options, ScenarioArguments& arguments) {
+  options.option("scenarios", arguments.files, "scenario files").required();
+  options.option("--set", arguments.settings, "changes the scenario; may be repeated")
+      .one_word_each()
+      .called("PATH=VALUE");
+  options.option("--seed", arguments.seeds,
                  "seed of the run, or first:last for several runs; at most " + std::to_string(kGreatestSeed));
 }
 

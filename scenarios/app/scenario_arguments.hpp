@@ -5,11 +5,9 @@
 #include <utility>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace ironbird::scenarios {
+
+class VerbOptions;
 
 /// Which scenarios, and how changed: what `run` and `check` take.
 struct ScenarioArguments {
@@ -18,7 +16,7 @@ struct ScenarioArguments {
   std::string seeds;
 };
 
-void add_scenario_arguments(CLI::App& app, ScenarioArguments& arguments);
+void add_scenario_arguments(VerbOptions& options, ScenarioArguments& arguments);
 
 /// Path and text of each `--set`. @throws ConfigError for one that is not path=value
 std::vector<std::pair<std::string, std::string>> split_settings(const std::vector<std::string>& settings);

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "hil_bridge/translate/telemetry.hpp"
 #include "scenarios/app/command_line.hpp"
 #include "scenarios/app/exit_code.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/requirements/signal_table.hpp"
 #include "simulator/types/truth.hpp"
 
@@ -61,8 +61,8 @@ int topics(const autopilot::Modules& modules) {
 }  // namespace
 
 Verb topics_verb() {
-  return {"topics", "print every signal and parameter with unit and meaning", [](CLI::App& app) {
-            app.footer("Example:\n  ironbird topics | grep estimate");
+  return {"topics", "print every signal and parameter with unit and meaning", [](VerbOptions& options) {
+            options.footer("Example:\n  ironbird topics | grep estimate");
             return [](const autopilot::Modules& modules) { return topics(modules); };
           }};
 }

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -6,6 +5,7 @@
 #include "hil_bridge/serial_fcu/calibration_client.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/fcu/fcu_verb.hpp"
 #include "scenarios/fcu/unit_line.hpp"
@@ -75,12 +75,12 @@ int calibrate(const CalibrateArguments& arguments) {
 
 }  // namespace
 
-FcuWork declare_fcu_calibrate(CLI::App& app) {
+FcuWork declare_fcu_calibrate(VerbOptions& options) {
   auto arguments = std::make_shared<CalibrateArguments>();
-  add_unit_address(app, arguments->address);
-  app.add_option("what", arguments->what, "imu, gyro, baro, airspeed or rc-trim")->required();
-  app.add_flag("--keep", arguments->keep, "write the result to the unit's flash");
-  app.footer(
+  add_unit_address(options, arguments->address);
+  options.option("what", arguments->what, "imu, gyro, baro, airspeed or rc-trim").required();
+  options.flag("--keep", arguments->keep, "write the result to the unit's flash");
+  options.footer(
       "Only while the unit says that it is disarmed. Done when the unit has told its result; exit code 1 "
       "when "
       "it says that\n"

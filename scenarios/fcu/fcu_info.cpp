@@ -1,9 +1,9 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/fcu/fcu_verb.hpp"
 #include "scenarios/fcu/unit_line.hpp"
 #include "scenarios/fcu/unit_report.hpp"
@@ -32,11 +32,12 @@ int info(const InfoArguments& arguments) {
 
 }  // namespace
 
-FcuWork declare_fcu_info(CLI::App& app) {
+FcuWork declare_fcu_info(VerbOptions& options) {
   auto arguments = std::make_shared<InfoArguments>();
-  add_unit_address(app, arguments->address);
-  app.add_flag("--json", arguments->json, "for programs");
-  app.footer("Only asks and listens, for some seconds.\nExample:\n  ironbird fcu info --port /dev/ttyACM0");
+  add_unit_address(options, arguments->address);
+  options.flag("--json", arguments->json, "for programs");
+  options.footer(
+      "Only asks and listens, for some seconds.\nExample:\n  ironbird fcu info --port /dev/ttyACM0");
   return [arguments](const autopilot::Modules&) { return info(*arguments); };
 }
 

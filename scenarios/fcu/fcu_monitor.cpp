@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/terminal.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/fcu/fcu_verb.hpp"
@@ -107,17 +107,18 @@ int monitor(const MonitorArguments& arguments, const autopilot::Modules& modules
 
 }  // namespace
 
-FcuWork declare_fcu_monitor(CLI::App& app) {
+FcuWork declare_fcu_monitor(VerbOptions& options) {
   auto arguments = std::make_shared<MonitorArguments>();
-  add_unit_address(app, arguments->address);
-  app.add_option("--seconds", arguments->seconds, "end after so many seconds; of --latency 60 by default")
-      ->check(CLI::Range(0.1, 86400.0));
-  app.add_flag("--json", arguments->json, "one line of JSON a second, for programs");
-  app.add_flag("--latency", arguments->latency, "measure round trips, beside the machine's own jitter");
-  app.add_option("--self", arguments->self,
-                 "with --latency: no unit, but the scenario's virtual one on a pseudo-terminal made for it")
-      ->type_name("SCENARIO");
-  app.footer(
+  add_unit_address(options, arguments->address);
+  options.option("--seconds", arguments->seconds, "end after so many seconds; of --latency 60 by default")
+      .within(0.1, 86400.0);
+  options.flag("--json", arguments->json, "one line of JSON a second, for programs");
+  options.flag("--latency", arguments->latency, "measure round trips, beside the machine's own jitter");
+  options
+      .option("--self", arguments->self,
+              "with --latency: no unit, but the scenario's virtual one on a pseudo-terminal made for it")
+      .called("SCENARIO");
+  options.footer(
       "Sends nothing but questions. On a terminal the view is redrawn in place, elsewhere a line is written "
       "each second.\n"
       "Exit code 3 when the unit is silent at the end. NO_COLOR and CI are heeded.\n"

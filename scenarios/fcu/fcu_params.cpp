@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -8,6 +7,7 @@
 #include "hil_bridge/transport/byte_stream.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/bench/make_guard.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/config/config_error.hpp"
@@ -216,13 +216,13 @@ int params(ParamsArguments arguments, const autopilot::Modules& modules) {
 
 }  // namespace
 
-FcuWork declare_fcu_params(CLI::App& app) {
+FcuWork declare_fcu_params(VerbOptions& options) {
   auto arguments = std::make_shared<ParamsArguments>();
-  add_unit_address(app, arguments->address);
-  app.add_option("deed", arguments->deed, "get, set, save, load, diff or verify")->required();
-  app.add_option("words", arguments->words, "names, values, or a file");
-  app.add_flag("--keep", arguments->keep, "after set and load: write to the unit's flash");
-  app.footer(
+  add_unit_address(options, arguments->address);
+  options.option("deed", arguments->deed, "get, set, save, load, diff or verify").required();
+  options.option("words", arguments->words, "names, values, or a file");
+  options.flag("--keep", arguments->keep, "after set and load: write to the unit's flash");
+  options.footer(
       "set and load are done when the unit has said every value back; only while it is disarmed. verify "
       "looks at what\n"
       "the file names, diff at everything. Files are YAML: - {name: NAME, type: 6 or 9, value: VALUE}; or "

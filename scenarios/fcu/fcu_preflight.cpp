@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/terminal.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/bench/make_guard.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
@@ -54,13 +54,13 @@ int look(const PreflightArguments& arguments, const autopilot::Modules& modules)
 
 }  // namespace
 
-FcuWork declare_fcu_preflight(CLI::App& app) {
+FcuWork declare_fcu_preflight(VerbOptions& options) {
   auto arguments = std::make_shared<PreflightArguments>();
-  add_unit_address(app, arguments->address);
-  app.add_option("scenario", arguments->scenario,
+  add_unit_address(options, arguments->address);
+  options.option("scenario", arguments->scenario,
                  "whose parameters the unit must have; without one they are not compared");
-  app.add_flag("--json", arguments->json, "for programs");
-  app.footer(
+  options.flag("--json", arguments->json, "for programs");
+  options.footer(
       "Only asks and listens, for some seconds; the vehicle stands still meanwhile. Exit code 0 when nothing "
       "is "
       "red, 1 when\n"

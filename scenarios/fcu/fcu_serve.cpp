@@ -1,6 +1,5 @@
 #include <time.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -18,6 +17,7 @@
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/scenario_arguments.hpp"
 #include "scenarios/app/terminal.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/config/config_error.hpp"
@@ -166,24 +166,22 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
 
 }  // namespace
 
-FcuWork declare_fcu_serve(CLI::App& app) {
+FcuWork declare_fcu_serve(VerbOptions& options) {
   auto arguments = std::make_shared<ServeArguments>();
-  app.add_option("scenario", arguments->scenario, "vehicle, world, parameters and pilot of the unit")
-      ->required();
-  app.add_option("--set", arguments->settings, "path=value, changes the scenario")->allow_extra_args(false);
-  app.add_option("--pty", arguments->pty, "make a pseudo-terminal and this link to it");
-  app.add_option("--udp", arguments->udp, "have this UDP port, and send to port 14520")
-      ->check(CLI::Range(1, 65535));
-  app.add_option("--duration", arguments->duration, "end after so many seconds")
-      ->check(CLI::Range(0.1, 86400.0));
-  app.add_option("--can", arguments->can, "its motors are on this CAN interface, as DroneCAN controllers");
-  app.add_flag("--can-fd", arguments->can_fd, "in CAN FD frames");
-  app.add_flag("--on-desk", arguments->on_desk, "its own vehicle stands still whatever its outputs are");
-  app.add_option("--time-scale", arguments->time_scale, "its seconds in a second of the clock")
-      ->check(CLI::Range(0.001, 1.0));
-  app.add_flag("--idle-pilot", arguments->idle_pilot,
+  options.option("scenario", arguments->scenario, "vehicle, world, parameters and pilot of the unit")
+      .required();
+  options.option("--set", arguments->settings, "path=value, changes the scenario").one_word_each();
+  options.option("--pty", arguments->pty, "make a pseudo-terminal and this link to it");
+  options.option("--udp", arguments->udp, "have this UDP port, and send to port 14520").within(1, 65535);
+  options.option("--duration", arguments->duration, "end after so many seconds").within(0.1, 86400.0);
+  options.option("--can", arguments->can, "its motors are on this CAN interface, as DroneCAN controllers");
+  options.flag("--can-fd", arguments->can_fd, "in CAN FD frames");
+  options.flag("--on-desk", arguments->on_desk, "its own vehicle stands still whatever its outputs are");
+  options.option("--time-scale", arguments->time_scale, "its seconds in a second of the clock")
+      .within(0.001, 1.0);
+  options.flag("--idle-pilot", arguments->idle_pilot,
                "the pilot leaves the switches alone: it is never armed");
-  app.footer(
+  options.footer(
       "A virtual unit that others meet as they would meet a real one, in real time: streams and rates, "
       "texts, parameters,\n"
       "and the firmware's oddities. The pilot of the scenario arms when somebody has been there for "

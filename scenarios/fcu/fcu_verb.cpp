@@ -1,10 +1,10 @@
 #include "scenarios/fcu/fcu_verb.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
 
 #include "scenarios/app/command_line.hpp"
+#include "scenarios/app/verb_options.hpp"
 
 namespace ironbird::scenarios {
 
@@ -13,7 +13,7 @@ namespace {
 struct SubVerb {
   const char* name;
   const char* summary;
-  FcuWork (*declare)(CLI::App&);
+  FcuWork (*declare)(VerbOptions&);
 };
 
 constexpr std::array<SubVerb, 6> kSubVerbs = {{
@@ -28,9 +28,9 @@ constexpr std::array<SubVerb, 6> kSubVerbs = {{
 }  // namespace
 
 Verb fcu_verb() {
-  return {"fcu", "talk to a flight-control unit, or be one", [](CLI::App& app) -> FcuWork {
-            app.require_subcommand(1);
-            app.footer(
+  return {"fcu", "talk to a flight-control unit, or be one", [](VerbOptions& options) -> FcuWork {
+            options.requires_verb();
+            options.footer(
                 "No motor command ever leaves through this verb; parameters are set and calibrations ordered "
                 "only while the\n"
                 "unit says that it is disarmed.\n"
@@ -42,8 +42,9 @@ Verb fcu_verb() {
                 "  ironbird fcu preflight --port /dev/ttyACM0 scenarios/library/paper/three_waypoints.toml");
             auto chosen = std::make_shared<FcuWork>();
             for (const SubVerb& sub : kSubVerbs) {
-              CLI::App* command = app.add_subcommand(sub.name, sub.summary);
-              command->callback([chosen, work = sub.declare(*command)] { *chosen = work; });
+              options.verb(sub.name, sub.summary, [&](VerbOptions& of_sub) {
+                return [chosen, work = sub.declare(of_sub)] { *chosen = work; };
+              });
             }
             return [chosen](const autopilot::Modules& modules) { return (*chosen)(modules); };
           }};

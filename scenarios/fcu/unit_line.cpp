@@ -2,7 +2,6 @@
 
 #include <poll.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "hil_bridge/transport/serial_port.hpp"
 #include "hil_bridge/transport/udp_socket.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/app/verb_options.hpp"
 #include "scenarios/bench/meeting.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/config/config_error.hpp"
@@ -50,13 +50,13 @@ UdpConfig udp_config(const std::string& text) {
 
 }  // namespace
 
-void add_unit_address(CLI::App& app, UnitAddress& address) {
-  app.add_option("--port,--line", address.port, "serial port of the unit, as /dev/ttyACM0");
-  app.add_option("--baud", address.baud, "rate of the port, Bd")->capture_default_str();
-  app.add_option("--udp", address.udp, "unit behind UDP instead, HOST[:PORT]; this side has port 14520");
-  app.add_option("--patience", address.patience, "how long to wait for the unit, s")
-      ->capture_default_str()
-      ->check(CLI::Range(0.1, 3600.0));
+void add_unit_address(VerbOptions& options, UnitAddress& address) {
+  options.option("--port,--line", address.port, "serial port of the unit, as /dev/ttyACM0");
+  options.option("--baud", address.baud, "rate of the port, Bd").shows_default();
+  options.option("--udp", address.udp, "unit behind UDP instead, HOST[:PORT]; this side has port 14520");
+  options.option("--patience", address.patience, "how long to wait for the unit, s")
+      .shows_default()
+      .within(0.1, 3600.0);
 }
 
 std::unique_ptr<ByteStream> open_line(const UnitAddress& address) {

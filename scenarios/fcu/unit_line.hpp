@@ -10,11 +10,9 @@
 #include "hil_bridge/serial_fcu/serial_fcu.hpp"
 #include "hil_bridge/transport/byte_stream.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace ironbird::scenarios {
+
+class VerbOptions;
 
 /// Where a unit is, as the command line says it.
 struct UnitAddress {
@@ -24,7 +22,7 @@ struct UnitAddress {
   double patience = 5.0;  // s
 };
 
-void add_unit_address(CLI::App& app, UnitAddress& address);
+void add_unit_address(VerbOptions& options, UnitAddress& address);
 
 /// The line to a unit, opened. @throws ConfigError for an address that is none, transport::LinkError for a
 /// line that cannot be opened
