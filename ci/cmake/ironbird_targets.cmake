@@ -4,14 +4,19 @@
 # optimisation level: no contraction into fused multiply-add, no fast-math, no -march=native.
 add_library(ironbird_options INTERFACE)
 target_compile_features(ironbird_options INTERFACE cxx_std_20)
-# GCC tidies its memory up while it compiles: the tenth part of its time, for memory that is there.
-target_compile_options(ironbird_options INTERFACE
-  "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-expand=200 --param ggc-min-heapsize=400000>")
 # What the compiler warns of is our business in our targets and everybody's own in a program outside this tree.
 define_property(TARGET PROPERTY IRONBIRD_OWN INITIALIZE_FROM_VARIABLE DEFAULT_IRONBIRD_OWN
                 BRIEF_DOCS "A target of this tree" FULL_DOCS "A target of this tree, built with its warnings")
 set(DEFAULT_IRONBIRD_OWN ON)
 set(own $<TARGET_PROPERTY:IRONBIRD_OWN>)
+# GCC tidies up its memory while it compiles, a tenth of its time; not where there is a gigabyte for each compiler.
+cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+math(EXPR memory_enough "${cores} * 1024 + 2048")
+if(memory GREATER memory_enough)
+  target_compile_options(ironbird_options INTERFACE
+    "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${own}>>:SHELL:--param ggc-min-expand=200 --param ggc-min-heapsize=400000>")
+endif()
 target_compile_options(ironbird_options INTERFACE
   $<$<BOOL:${own}>:-Wall> $<$<BOOL:${own}>:-Wextra> $<$<BOOL:${own}>:-Wpedantic> $<$<BOOL:${own}>:-Wshadow>
   -ffp-contract=off
@@ -56,11 +61,11 @@ set(headers <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <algorithm> <array> <cmath>
             <variant> <vector>)
 ironbird_precompiled(libraries HEADERS ${headers} LINKS Eigen3::Eigen)
 # The tests' own code, which runs once, is optimised less than what it tests, and no fuzz target finds its way through it.
-# In a sanitised build that of bridge and scenarios is not optimised at all. The wings' is: of an inline function, Eigen's
-# above all, the linker takes the copy that it meets first, a test's, for the library as well.
+# Sanitised, the tests of bridge and scenarios are not optimised at all. Those of the wings are: the linker keeps one copy of
+# an inline function, a test's, and the library then runs Eigen's at the test's level.
 set(test_options $<$<CONFIG:Release>:-O1>)
 if(sanitised)
-  set(test_options -O1 -fno-sanitize=fuzzer-no-link)
+  set(test_options -fno-sanitize=fuzzer-no-link)
   set(plain_options -O0 -fno-sanitize=fuzzer-no-link)
 endif()
 if(IRONBIRD_TESTS)
@@ -121,7 +126,8 @@ function(ironbird_test)
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ironbird_options ${arg_LINKS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE IRONBIRD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  if(sanitised AND NOT CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/(autopilot|simulator)")
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE room)
+  if(sanitised AND NOT room MATCHES "^(autopilot|simulator)(/|$)")
     target_compile_options(${target} PRIVATE ${plain_options})
     ironbird_reuse_headers(${target} tests VARIANT _unoptimised)
   else()

@@ -10,7 +10,7 @@ namespace ironbird::scenarios {
 
 class VerbOptions;
 
-/// One verb of the program. `declare` adds its options to the given sub-command and returns what runs it.
+/// One verb of the program. `declare` says what it takes and returns what runs it.
 struct Verb {
   const char* name;
   const char* summary;

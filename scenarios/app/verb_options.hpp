@@ -12,20 +12,22 @@ class Option;
 namespace ironbird::scenarios {
 
 /// What a verb takes from the command line. Values that are bound here must outlive the reading of it.
-/// Its source and command_line.cpp alone include the library that reads command lines: all of that library is
-/// in its headers.
+/// Its source and command_line.cpp alone include the library that reads command lines, all of which is in
+/// headers; `ci/check_layers` sees to it.
 class VerbOptions {
  public:
   /// What else holds of an option.
   class Option {
    public:
     explicit Option(CLI::Option* option) : option_(option) {}
+    /// A command line without it is refused.
     Option& required();
+    /// The help says what the value is when nothing is said.
     Option& shows_default();
     /// Values outside are refused. Both ends are inside.
     Option& within(int least, int most);
     Option& within(double least, double most);
-    /// What the help calls its value, such as FILE.
+    /// What the help calls its value, such as PATH=VALUE.
     Option& called(const char* what);
     /// Takes one word each time that it is given, and not all words that follow.
     Option& one_word_each();
@@ -41,6 +43,7 @@ class VerbOptions {
   Option option(const char* names, std::vector<std::string>& values, const std::string& help);
   Option option(const char* names, int& value, const std::string& help);
   Option option(const char* names, double& value, const std::string& help);
+  /// @param value  true afterwards when one of the names is given
   void flag(const char* names, bool& value, const std::string& help);
   /// What the help ends with: what is worth knowing, and examples.
   void footer(const std::string& text);

@@ -40,6 +40,7 @@ using hil_bridge::transport::UdpSocket;
 // So far behind the clock there is no catching up: the clock is set anew and the loss told.
 constexpr Time kGivenUp = std::chrono::milliseconds(200);
 constexpr Time kTellPeriod = std::chrono::seconds(1);
+constexpr int kLeastRest = 10;  // parts of a period, of which one is rest
 
 struct ServeArguments {
   std::string scenario;
@@ -154,7 +155,8 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
       tell(unit, lost);
       told = unit.now();
     }
-    sleep_until(next);
+    // A unit that is always late would never leave the core: it runs before all ordinary programs.
+    sleep_until(std::max(next, clock_now() + period / kLeastRest));
   }
   if (interactive) std::fputs("\n", stderr);
   if (lost > Time::zero()) {
@@ -170,7 +172,9 @@ FcuWork declare_fcu_serve(VerbOptions& options) {
   auto arguments = std::make_shared<ServeArguments>();
   options.option("scenario", arguments->scenario, "vehicle, world, parameters and pilot of the unit")
       .required();
-  options.option("--set", arguments->settings, "path=value, changes the scenario").one_word_each();
+  options.option("--set", arguments->settings, "changes the scenario; may be repeated")
+      .one_word_each()
+      .called("PATH=VALUE");
   options.option("--pty", arguments->pty, "make a pseudo-terminal and this link to it");
   options.option("--udp", arguments->udp, "have this UDP port, and send to port 14520").within(1, 65535);
   options.option("--duration", arguments->duration, "end after so many seconds").within(0.1, 86400.0);

@@ -11,7 +11,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 namespace ironbird::hil_bridge {
@@ -25,6 +27,10 @@ constexpr int kDeathPatience = 20;  // ms; a process told to die runs no more co
 
 Time clock_now() {
   return std::chrono::steady_clock::now().time_since_epoch();
+}
+
+void sleep_until(Time time) {
+  std::this_thread::sleep_until(std::chrono::steady_clock::time_point(time));
 }
 
 int milliseconds(Time time) {
@@ -81,9 +87,9 @@ void WatchLoop::take_orders() {
     message.msg_control = room.data();
     message.msg_controllen = room.size();
     const ssize_t count = recvmsg(socket_.number(), &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
-    if (count < 0) return;
+    if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
     // The other end is closed: how the bench fares is seen elsewhere.
-    if (count == 0) return socket_.close();
+    if (count <= 0) return socket_.close();
     left_ = left_ || word == kLeave;
     abandoned_ = abandoned_ || word == kAbandon;
     const cmsghdr* const extra = CMSG_FIRSTHDR(&message);
@@ -147,16 +153,15 @@ void WatchLoop::finish_with_zeros(const std::string& what_happened) {
   line_.send_zero();
   say(what_happened + "; sending zero thrust until the unit says that it is disarmed, for at most " +
       std::to_string(milliseconds(config_.zeros_at_most) / 1000) + " s");
-  Time next = clock_now() + config_.zero_period;
-  while (clock_now() < end) {
-    line_.wait(milliseconds(config_.zero_period));
+  // Not the line is waited for: one that has gone is ready for ever, and at this priority nothing else would
+  // have the core.
+  for (Time next = clock_now(); next < end;) {
+    next = std::max(next + config_.zero_period, clock_now());
+    sleep_until(next);
     if (line_.heard_disarmed()) return say("the unit says that it is disarmed");
-    // One that was pulled out is ready at once, for ever: at this priority nothing else would have the core.
     line_.drop_if_dead();
     if (!line_.has_line()) return say("the line to the unit is gone: disarm it by radio");
-    if (clock_now() < next) continue;
     line_.send_zero();
-    next += config_.zero_period;
   }
   say("the unit has not said that it is disarmed: disarm it by radio");
 }

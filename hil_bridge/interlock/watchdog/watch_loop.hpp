@@ -44,7 +44,6 @@ class WatchLoop {
 
  private:
   void take_orders();
-  void take_line(int descriptor);
   void drop_dead_line(Time now);
   bool gate_open() const;
   bool bench_gone(int patience_ms) const;

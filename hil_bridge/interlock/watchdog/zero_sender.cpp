@@ -16,6 +16,7 @@ namespace ironbird::hil_bridge {
 namespace {
 
 constexpr rosflight::Address kCompanion{1, 50};
+constexpr int kMostReads = 16;  // of 4096 bytes, at a time: a line that never ends must not end the zeros
 
 }  // namespace
 
@@ -34,7 +35,7 @@ void ZeroSender::discard_old() {
   if (!line_) return;
   tcflush(line_.number(), TCIOFLUSH);  // does nothing to a socket, whose datagrams are read away
   std::array<std::uint8_t, 4096> bytes{};
-  while (read(line_.number(), bytes.data(), bytes.size()) > 0) {
+  for (int k = 0; k < kMostReads && read(line_.number(), bytes.data(), bytes.size()) > 0; ++k) {
   }
   decoder_.clear();
 }
@@ -54,7 +55,9 @@ bool ZeroSender::heard_disarmed() {
   if (!line_) return false;
   bool disarmed = false;
   std::array<std::uint8_t, 4096> bytes{};
-  for (ssize_t count = 0; (count = read(line_.number(), bytes.data(), bytes.size())) > 0;) {
+  for (int k = 0; k < kMostReads; ++k) {
+    const ssize_t count = read(line_.number(), bytes.data(), bytes.size());
+    if (count <= 0) break;
     decoder_.push(std::span(bytes).first(static_cast<std::size_t>(count)),
                   [&](const rosflight::Frame& frame) {
                     const auto* status = std::get_if<rosflight::RosflightStatus>(&frame.message);
@@ -62,11 +65,6 @@ bool ZeroSender::heard_disarmed() {
                   });
   }
   return disarmed;
-}
-
-void ZeroSender::wait(int milliseconds) const {
-  pollfd state{line_.number(), POLLIN, 0};
-  poll(&state, 1, milliseconds);
 }
 
 }  // namespace ironbird::hil_bridge

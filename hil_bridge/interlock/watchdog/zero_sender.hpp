@@ -16,7 +16,7 @@ class ZeroSender {
   void take_line(transport::FileDescriptor line);
   bool has_line() const { return static_cast<bool>(line_); }
   /// Closes a line that the other side has left: held open, it would keep its device from coming back under
-  /// the same name.
+  /// the same name, and zeros into it reach nobody.
   void drop_if_dead();
 
   /// Throws away what the bench had queued and what was said to it; neither is true any more.
@@ -25,8 +25,6 @@ class ZeroSender {
   bool send_zero();
   /// Reads what has come. @return did the unit say that it is disarmed?
   bool heard_disarmed();
-  /// Waits for the unit's words, at most so long.
-  void wait(int milliseconds) const;
 
  private:
   transport::FileDescriptor line_;

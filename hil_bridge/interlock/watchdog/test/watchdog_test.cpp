@@ -225,9 +225,8 @@ TEST_F(WatchdogTest, SaysThatAnArmedUnitIsLeftAfterTheLastZero) {
   EXPECT_NEAR(unit_.motor(), kPilotsMotors, kClose);
 }
 
-// A line that has gone is ready at once, for ever: waiting for its words would take the whole core from
-// everything else, the next bench among it.
-TEST_F(WatchdogTest, EndsWithoutSpinningWhenTheLineGoesBetweenItsZeros) {
+// Ten seconds of zeros that reach nobody are ten seconds of the highest priority.
+TEST_F(WatchdogTest, EndsWhenTheLineGoesBetweenItsZeros) {
   fly(InterlockProfile::kBench);
   bench_->signal(SIGKILL);
   unit_.until(kPatience, [&] { return unit_.line.zeros > 0; });

@@ -11,8 +11,11 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "hil_bridge/interlock/interlock.hpp"
