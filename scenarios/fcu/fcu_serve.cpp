@@ -1,5 +1,3 @@
-#include <time.h>
-
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +8,7 @@
 
 #include "hil_bridge/executive/real_time_rights.hpp"
 #include "hil_bridge/transport/link_fault.hpp"
+#include "hil_bridge/transport/machine_clock.hpp"
 #include "hil_bridge/transport/pseudo_terminal.hpp"
 #include "hil_bridge/transport/socket_can.hpp"
 #include "hil_bridge/transport/udp_socket.hpp"
@@ -31,6 +30,7 @@ namespace {
 using hil_bridge::Time;
 using hil_bridge::transport::ByteStream;
 using hil_bridge::transport::LinkError;
+using hil_bridge::transport::machine_time;
 using hil_bridge::transport::PseudoTerminal;
 using hil_bridge::transport::SocketCan;
 using hil_bridge::transport::SocketCanParams;
@@ -76,10 +76,6 @@ Line open_line(const ServeArguments& arguments) {
   return {std::make_unique<PseudoTerminal>(arguments.pty), "--port " + arguments.pty};
 }
 
-Time clock_now() {
-  return std::chrono::steady_clock::now().time_since_epoch();
-}
-
 /// The bus of the motors, or null. What is wrong with it is a matter of the machine, not of the command line.
 std::unique_ptr<SocketCan> open_bus(const ServeArguments& arguments) {
   if (arguments.can.empty()) return nullptr;
@@ -87,7 +83,7 @@ std::unique_ptr<SocketCan> open_bus(const ServeArguments& arguments) {
   params.interface = arguments.can;
   params.fd = arguments.can_fd;
   try {
-    return std::make_unique<SocketCan>(params, clock_now());
+    return std::make_unique<SocketCan>(params, machine_time());
   } catch (const std::invalid_argument& error) {
     throw LinkError(error.what());
   }
@@ -102,11 +98,6 @@ void tell_events(SocketCan* bus, const std::string& interface) {
     std::fprintf(stderr, "CAN interface %s: %.*s\n", interface.c_str(), static_cast<int>(name.size()),
                  name.data());
   }
-}
-
-void sleep_until(Time when) {
-  const timespec at{when.count() / 1'000'000'000, when.count() % 1'000'000'000};
-  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
 }
 
 void tell(const ServedUnit& unit, Time lost) {
@@ -137,7 +128,7 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
   }
   const bool interactive = Terminal::of_standard_error().interactive;
   const Time end = from_seconds(arguments.duration);
-  Time next = clock_now();
+  Time next = machine_time();
   Time told{};
   Time lost{};
   while (!interrupt_requested() && (end == Time::zero() || unit.now() < end)) {
@@ -146,7 +137,7 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
     spoiled.advance(unit.now());
     tell_events(bus.get(), arguments.can);
     next += period;
-    const Time behind = clock_now() - next;
+    const Time behind = machine_time() - next;
     if (behind > kGivenUp) {
       lost += behind;
       next += behind;
@@ -156,7 +147,7 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
       told = unit.now();
     }
     // A unit that is always late would never leave the core: it runs before all ordinary programs.
-    sleep_until(std::max(next, clock_now() + period / kLeastRest));
+    hil_bridge::transport::sleep_until(std::max(next, machine_time() + period / kLeastRest));
   }
   if (interactive) std::fputs("\n", stderr);
   if (lost > Time::zero()) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "hil_bridge/transport/machine_clock.hpp"
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/fcu/printed.hpp"
@@ -17,6 +18,7 @@ namespace ironbird::scenarios {
 namespace {
 
 using hil_bridge::Time;
+using hil_bridge::transport::machine_time;
 namespace rosflight = hil_bridge::rosflight;
 
 constexpr std::size_t kRoom = 4'000'000;  // an hour of wakings
@@ -68,10 +70,10 @@ class Asker {
   void look() {
     pollfd state{unit_.descriptor(), POLLIN, 0};
     poll(&state, 1, kPatience);
-    const Time woken = steady_now();
+    const Time woken = machine_time();
     asked_ = false;
     unit_.step();
-    if (asked_) turn_around.push_back(steady_now() - woken);
+    if (asked_) turn_around.push_back(machine_time() - woken);
   }
 
   std::vector<Time> round_trip;
@@ -81,9 +83,9 @@ class Asker {
   void take(const hil_bridge::Arrival& arrival) {
     if (const auto* answer = std::get_if<rosflight::Timesync>(&arrival.message);
         answer != nullptr && answer->tc1 > 0)
-      round_trip.push_back(steady_now() - Time{answer->ts1});
+      round_trip.push_back(machine_time() - Time{answer->ts1});
     if (!std::holds_alternative<rosflight::SmallImu>(arrival.message) || ++frames_ % kAskedOf != 0) return;
-    unit_.fcu().send(rosflight::Timesync{.tc1 = 0, .ts1 = steady_now().count()});
+    unit_.fcu().send(rosflight::Timesync{.tc1 = 0, .ts1 = machine_time().count()});
     asked_ = true;
   }
 
@@ -135,8 +137,8 @@ LatencyReport latency_of_line(const UnitAddress& address, double seconds) {
   unit.meet();
   const SideProcess sleeper([&] { measure_jitter(late); });
   Asker asker(unit);
-  const Time end = steady_now() + from_seconds(seconds);
-  while (steady_now() < end && !interrupt_requested()) asker.look();
+  const Time end = machine_time() + from_seconds(seconds);
+  while (machine_time() < end && !interrupt_requested()) asker.look();
   if (asker.round_trip.empty() && !interrupt_requested()) {
     throw hil_bridge::transport::LinkError(unit.name() + ": the unit answered no question for its clock");
   }

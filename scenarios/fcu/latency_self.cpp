@@ -11,6 +11,7 @@
 #include "hil_bridge/serial_fcu/serial_fcu.hpp"
 #include "hil_bridge/translate/command_encoder.hpp"
 #include "hil_bridge/translate/sensor_frame_builder.hpp"
+#include "hil_bridge/transport/machine_clock.hpp"
 #include "hil_bridge/transport/pseudo_terminal.hpp"
 #include "hil_bridge/transport/serial_port.hpp"
 #include "scenarios/app/interrupt.hpp"
@@ -26,6 +27,7 @@ namespace {
 
 using hil_bridge::Time;
 using hil_bridge::transport::ByteStream;
+using hil_bridge::transport::machine_time;
 using hil_bridge::transport::PseudoTerminal;
 namespace rosflight = hil_bridge::rosflight;
 
@@ -41,11 +43,11 @@ class StampedLine final : public ByteStream {
 
   /// Waits for a motor command. @return when it was there, or nothing in a tenth of a second
   std::optional<Time> await_command() {
-    const Time end = steady_now() + std::chrono::milliseconds(kPatience);
-    while (steady_now() < end) {
+    const Time end = machine_time() + std::chrono::milliseconds(kPatience);
+    while (machine_time() < end) {
       pollfd state{line_.descriptor(), POLLIN, 0};
       if (poll(&state, 1, kPatience) <= 0) break;
-      const Time there = steady_now();
+      const Time there = machine_time();
       if (read_ahead()) return there;
     }
     return std::nullopt;
@@ -61,7 +63,7 @@ class StampedLine final : public ByteStream {
     return count;
   }
   std::size_t write(std::span<const std::uint8_t> from) override {
-    if (!written_) written_ = steady_now();
+    if (!written_) written_ = machine_time();
     return line_.write(from);
   }
   bool is_up() const override { return line_.is_up(); }
@@ -91,8 +93,8 @@ class StampedLine final : public ByteStream {
 void serve(const Scenario& scenario, PseudoTerminal& terminal, SharedTimes& round_trips) {
   StampedLine line(terminal);
   ServedUnit unit(scenario, line);
-  for (Time next = steady_now();; next = std::max(next + unit.period(), steady_now())) {
-    sleep_until(next);
+  for (Time next = machine_time();; next = std::max(next + unit.period(), machine_time())) {
+    hil_bridge::transport::sleep_until(next);
     line.begin_tick();
     unit.tick();
     if (!line.written()) continue;
@@ -112,7 +114,7 @@ class Answerer {
   void look() {
     pollfd state{port_.descriptor(), POLLIN, 0};
     if (poll(&state, 1, kPatience) <= 0) return;
-    const Time woken = steady_now();
+    const Time woken = machine_time();
     fcu_.advance(woken);
     heard_.clear();
     fcu_.receive(heard_);
@@ -121,7 +123,7 @@ class Answerer {
       if (frame == nullptr) continue;
       // On the ground the autopilot may have nothing to say; the way is the same.
       fcu_.send(hil_bridge::encode(pilot_.step(*frame)).value_or(hil_bridge::zero_command()));
-      turn_around.push_back(steady_now() - woken);
+      turn_around.push_back(machine_time() - woken);
     }
   }
 
@@ -147,8 +149,8 @@ LatencyReport latency_of_self(const std::string& file, double seconds, const aut
   Answerer answerer(terminal.device(), loaded, modules);
   const SideProcess unit([&] { serve(loaded.scenario, terminal, round_trips); });
   const SideProcess sleeper([&] { measure_jitter(late); });
-  const Time end = steady_now() + from_seconds(seconds);
-  while (steady_now() < end && !interrupt_requested()) answerer.look();
+  const Time end = machine_time() + from_seconds(seconds);
+  while (machine_time() < end && !interrupt_requested()) answerer.look();
   LatencyReport report;
   report.where = "a pseudo-terminal of this machine, unit of " + loaded.name;
   report.round_trip_meaning = "IMU frame leaves the unit to command frame there, autopilot included";

@@ -4,7 +4,6 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,9 +11,12 @@
 #include <new>
 #include <stdexcept>
 
+#include "hil_bridge/transport/machine_clock.hpp"
+
 namespace ironbird::scenarios {
 
 using hil_bridge::Time;
+using hil_bridge::transport::machine_time;
 
 struct SharedTimes::Memory {
   std::atomic<std::size_t> count{0};
@@ -67,20 +69,11 @@ SideProcess::~SideProcess() {
   waitpid(process_, &status, 0);
 }
 
-Time steady_now() {
-  return std::chrono::steady_clock::now().time_since_epoch();
-}
-
-void sleep_until(Time when) {
-  const timespec at{when.count() / 1'000'000'000, when.count() % 1'000'000'000};
-  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
-}
-
 void measure_jitter(SharedTimes& times) {
   constexpr Time kPeriod = std::chrono::milliseconds(1);
-  for (Time next = steady_now() + kPeriod;; next = std::max(next, steady_now()) + kPeriod) {
-    sleep_until(next);
-    times.add(steady_now() - next);
+  for (Time next = machine_time() + kPeriod;; next = std::max(next, machine_time()) + kPeriod) {
+    hil_bridge::transport::sleep_until(next);
+    times.add(machine_time() - next);
   }
 }
 

@@ -44,10 +44,6 @@ class SideProcess {
   pid_t process_ = -1;
 };
 
-/// The clock that does not jump.
-hil_bridge::Time steady_now();
-void sleep_until(hil_bridge::Time when);
-
 /// Sleeps a millisecond at a time and notes by how much it is late each time, for ever.
 void measure_jitter(SharedTimes& times);
 

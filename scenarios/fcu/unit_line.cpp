@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "hil_bridge/transport/machine_clock.hpp"
 #include "hil_bridge/transport/serial_port.hpp"
 #include "hil_bridge/transport/udp_socket.hpp"
 #include "scenarios/app/interrupt.hpp"
@@ -81,7 +82,7 @@ UnitOnLine::UnitOnLine(const UnitAddress& address, Talk talk)
       fcu_(*line_, {}, talk == Talk::kChanges ? &gate_ : nullptr) {}
 
 hil_bridge::Time UnitOnLine::now() const {
-  return std::chrono::steady_clock::now().time_since_epoch();
+  return hil_bridge::transport::machine_time();
 }
 
 void UnitOnLine::step() {

@@ -13,25 +13,19 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <thread>
 #include <utility>
+
+#include "hil_bridge/transport/machine_clock.hpp"
 
 namespace ironbird::hil_bridge {
 
 namespace {
 
 using transport::FileDescriptor;
+using transport::machine_time;
 
 constexpr Time kLinePeriod = std::chrono::milliseconds(100);
 constexpr int kDeathPatience = 20;  // ms; a process told to die runs no more code of its own anyway
-
-Time clock_now() {
-  return std::chrono::steady_clock::now().time_since_epoch();
-}
-
-void sleep_until(Time time) {
-  std::this_thread::sleep_until(std::chrono::steady_clock::time_point(time));
-}
 
 int milliseconds(Time time) {
   return static_cast<int>(std::max<std::int64_t>(time.count() / 1'000'000, 1));
@@ -68,7 +62,7 @@ void WatchLoop::run() {
     // One that fails before anything was released says why itself.
     if (abandoned_ && !gate_open()) return;
     if (abandoned_) return bite("the bench has failed and ends", false);
-    const Time now = clock_now();
+    const Time now = machine_time();
     if (const auto what = silence(now)) return bite(*what + "; the bench was killed", true);
     drop_dead_line(now);
     pollfd events[] = {{bench_.number(), POLLIN, 0}, {socket_.number(), POLLIN, 0}};
@@ -149,15 +143,15 @@ void WatchLoop::bite(const std::string& why, bool kill) {
 }
 
 void WatchLoop::finish_with_zeros(const std::string& what_happened) {
-  const Time end = clock_now() + config_.zeros_at_most;
+  const Time end = machine_time() + config_.zeros_at_most;
   line_.send_zero();
   say(what_happened + "; sending zero thrust until the unit says that it is disarmed, for at most " +
       std::to_string(milliseconds(config_.zeros_at_most) / 1000) + " s");
   // Not the line is waited for: one that has gone is ready for ever, and at this priority nothing else would
   // have the core.
-  for (Time next = clock_now(); next < end;) {
-    next = std::max(next + config_.zero_period, clock_now());
-    sleep_until(next);
+  for (Time next = machine_time(); next < end;) {
+    next = std::max(next + config_.zero_period, machine_time());
+    transport::sleep_until(next);
     if (line_.heard_disarmed()) return say("the unit says that it is disarmed");
     line_.drop_if_dead();
     if (!line_.has_line()) return say("the line to the unit is gone: disarm it by radio");
