@@ -10,6 +10,7 @@ namespace {
 using std::chrono::microseconds;
 
 constexpr Time kSlowerThanLeast = microseconds(500);     // of a round trip, still believed
+constexpr Time kWrong = std::chrono::milliseconds(10);    // beyond what an exchange leaves possible
 constexpr Time kCatchUp = std::chrono::seconds(1);       // in which the line used reaches the fitted one
 constexpr Time kShortestSpan = std::chrono::seconds(4);  // of samples that tell a drift,
 constexpr double kFewest = 8.0;                          // and how many it takes
@@ -28,7 +29,8 @@ Time from_seconds(double value) {
 void TimeSync::exchange(Time sent, Time fcu, Time arrived) {
   const Time round_trip = arrived - sent;
   if (round_trip < Time::zero()) return;
-  samples_[next_] = {fcu, sent + round_trip / 2 - fcu, round_trip};
+  const Sample sample{fcu, sent + round_trip / 2 - fcu, round_trip};
+  samples_[next_] = sample;
   next_ = (next_ + 1) % kRemembered;
   count_ = std::min(count_ + 1, kRemembered);
   state_.round_trip = round_trip;
@@ -40,12 +42,25 @@ void TimeSync::exchange(Time sent, Time fcu, Time arrived) {
     return;
   }
   ++state_.used;
-  if (!state_.valid) {
-    state_.valid = true;
-    anchor_ = fcu;
-    anchor_offset_ = sent + round_trip / 2 - fcu;
-  }
+  if (!state_.valid || contradicts(sample)) begin_with(sample);
   fit(fcu);
+}
+
+bool TimeSync::contradicts(const Sample& sample) const {
+  return std::chrono::abs(present_offset(sample.fcu) - sample.offset) > sample.round_trip / 2 + kWrong;
+}
+
+void TimeSync::begin_with(const Sample& sample) {
+  samples_[0] = sample;
+  count_ = 1;
+  next_ = 1;
+  anchor_ = sample.fcu;
+  anchor_offset_ = sample.offset;
+  drift_ = 0.0;
+  catch_up_ = 0.0;
+  error_ = Time::zero();
+  state_.valid = true;
+  state_.least_round_trip = sample.round_trip;
 }
 
 void TimeSync::fit(Time fcu) {

@@ -35,8 +35,9 @@ struct TimeSyncState {
 /// An exchange says: between sending and the answer's arrival the FCU's clock showed so much. Half way
 /// between is the best guess, wrong by half the difference of the two ways; so exchanges that took much
 /// longer than the quickest one remembered are ignored. A straight line (offset and drift) is fitted to the
-/// rest. The line that is used moves towards the fitted one by at most `kGreatestSlew`, so that time never
-/// jumps and never runs backwards.
+/// rest. The line that is used moves towards the fitted one by at most `kGreatestSlew`. Time jumps only when
+/// an exchange proves it wrong, as when the first one waited behind all parameters: forwards; where it would
+/// jump backwards it stands still instead.
 ///
 /// Pure: time is an argument. The manner is that of NTP's clock filter (RFC 5905, section 10); the firmware's
 /// companion `rosflight_io` takes each exchange nearly whole and carries its jitter.
@@ -66,6 +67,9 @@ class TimeSync {
   };
 
   Time present_offset(Time fcu) const;
+  /// Does the answer's clock lie outside of sending and arrival, as the line used tells them?
+  bool contradicts(const Sample& sample) const;
+  void begin_with(const Sample& sample);
   void fit(Time fcu);
 
   std::array<Sample, kRemembered> samples_{};

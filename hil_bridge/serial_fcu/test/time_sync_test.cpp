@@ -125,6 +125,26 @@ TEST(TimeSyncTest, NeverRunsBackwardsWhateverTheLineDoes) {
   }
 }
 
+// A slow radio answers the first request behind eleven kilobytes of parameters.
+TEST(TimeSyncTest, BelievesASlowFirstExchangeOnlyUntilOneThatProvesItWrong) {
+  for (const bool slow_there : {true, false}) {
+    const Clocks clocks;
+    TimeSync sync;
+    const Time slow = seconds(2);
+    const Time quick = microseconds(300);
+    clocks.exchange(sync, seconds(8), slow_there ? slow : quick, slow_there ? quick : slow);
+    EXPECT_NEAR(std::abs(clocks.error_us(sync, milliseconds(10'310))), 1e6, 1e3);
+    Time latest = Time::min();
+    for (int k = 0; k < 30; ++k) {
+      clocks.exchange(sync, milliseconds(10'350 + 100 * k), quick, quick);
+      const Time stamp = sync.to_bench(clocks.fcu(milliseconds(10'360 + 100 * k)), Time::zero());
+      EXPECT_GE(stamp, latest) << "never backwards";
+      latest = stamp;
+    }
+    EXPECT_NEAR(clocks.error_us(sync, seconds(14)), 0.0, 1.0) << (slow_there ? "there" : "back");
+  }
+}
+
 TEST(TimeSyncTest, BeginsAnewWhenTheUnitHasBooted) {
   Clocks clocks;
   TimeSync sync;
