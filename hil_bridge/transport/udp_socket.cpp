@@ -6,16 +6,33 @@
 #include <sys/socket.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <memory>
+#include <system_error>
 
 namespace ironbird::hil_bridge::transport {
 
 namespace {
 
 constexpr int kDatagramsHeld = 1 << 20;  // bytes; the burst of all parameters is 11 kB
+constexpr int kGreatestPort = 65535;
 
 }  // namespace
+
+std::optional<UdpConfig> udp_peer(std::string_view text) {
+  UdpConfig config;
+  const std::size_t colon = text.rfind(':');
+  config.host = text.substr(0, colon);
+  if (config.host.empty()) return std::nullopt;
+  if (colon == std::string_view::npos) return config;
+  const std::string_view port = text.substr(colon + 1);
+  const char* const end = port.data() + port.size();
+  const auto read = std::from_chars(port.data(), end, config.port);
+  const bool is_port =
+      read.ec == std::errc() && read.ptr == end && config.port >= 1 && config.port <= kGreatestPort;
+  return is_port ? std::optional(config) : std::nullopt;
+}
 
 void UdpSocket::open() {
   if (const std::string problem = try_open(); !problem.empty()) throw LinkError(problem);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "hil_bridge/transport/byte_stream.hpp"
 #include "hil_bridge/transport/file_descriptor.hpp"
@@ -22,6 +24,10 @@ struct UdpConfig {
     visit("port", self.port, "1", "port of the other side", 1, 65535);
   }
 };
+
+/// The other side as a user writes it: HOST or HOST:PORT, this side has its usual port.
+/// @return nothing for a text that is neither
+std::optional<UdpConfig> udp_peer(std::string_view text);
 
 /// A line of datagrams, IPv4. Each write is one datagram; a read takes one, and what of it does not fit is
 /// lost, so read with room for 64 KiB. It is up as long as this side has its port, whether or not somebody

@@ -1,13 +1,11 @@
-#include <charconv>
-#include <chrono>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "hil_bridge/executive/paced_fcu.hpp"
 #include "hil_bridge/rosflight/frame_codec.hpp"
+#include "hil_bridge/transport/machine_clock.hpp"
 #include "hil_bridge/transport/serial_port.hpp"
 #include "hil_bridge/transport/socket_can.hpp"
 #include "hil_bridge/transport/udp_socket.hpp"
@@ -25,24 +23,14 @@ using namespace hil_bridge::transport;
 
 constexpr std::string_view kUdp = "udp:";
 
-/// @throws std::invalid_argument for a text that is no HOST:PORT
-UdpConfig udp_config(const std::string& text) {
-  const std::size_t colon = text.rfind(':');
-  UdpConfig config;
-  config.host = text.substr(0, colon);
-  const std::string port = colon == std::string::npos ? "" : text.substr(colon + 1);
-  const auto read = std::from_chars(port.data(), port.data() + port.size(), config.port);
-  constexpr int kGreatestPort = 65535;
-  if (read.ec != std::errc() || read.ptr != port.data() + port.size() || config.port < 1 ||
-      config.port > kGreatestPort || config.host.empty()) {
-    throw std::invalid_argument("fcu.line = udp:" + text + ": must be udp:HOST:PORT");
-  }
-  return config;
-}
-
 std::unique_ptr<ByteStream> open_line(const FcuConfig& fcu) {
   if (fcu.line.starts_with(kUdp)) {
-    auto socket = std::make_unique<UdpSocket>(udp_config(fcu.line.substr(kUdp.size())));
+    const auto peer = udp_peer(std::string_view(fcu.line).substr(kUdp.size()));
+    if (!peer) {
+      throw std::invalid_argument("fcu.line = " + fcu.line +
+                                  ": must be udp:HOST or udp:HOST:PORT, for example udp:localhost:14525");
+    }
+    auto socket = std::make_unique<UdpSocket>(*peer);
     socket->open();
     return socket;
   }
@@ -56,7 +44,7 @@ std::unique_ptr<SocketCan> open_bus(const FcuConfig& fcu) {
   params.interface = fcu.motors.substr(kCanInterface.size());
   params.fd = fcu.can_fd;
   try {
-    return std::make_unique<SocketCan>(params, std::chrono::steady_clock::now().time_since_epoch());
+    return std::make_unique<SocketCan>(params, machine_time());
   } catch (const std::invalid_argument& error) {
     throw LinkError(error.what());
   }

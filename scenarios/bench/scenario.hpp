@@ -85,7 +85,7 @@ struct FcuConfig : hil_bridge::VirtualFcuConfig {
   static void describe(Self& self, Visit&& visit) {
     visit("kind", self.kind, "1", "virtual, virtual_serial, serial: a real unit, or hil: a unit on a desk");
     visit("line", self.line, "",
-          "serial, hil: the unit's port, as /dev/serial/by-id/NAME, or udp:HOST:PORT; this side has port "
+          "serial, hil: the unit's port, as /dev/serial/by-id/NAME, or udp:HOST[:PORT]; this side has port "
           "14520; "
           "hil: virtual, for a virtual unit in this process");
     visit("baud", self.baud, "Bd", "serial, hil: rate of the port", 300.0, 4e6);

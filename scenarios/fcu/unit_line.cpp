@@ -21,33 +21,12 @@ using hil_bridge::ConnectionState;
 using hil_bridge::transport::ByteStream;
 using hil_bridge::transport::LinkError;
 using hil_bridge::transport::SerialPort;
-using hil_bridge::transport::UdpConfig;
 using hil_bridge::transport::UdpSocket;
 
 namespace {
 
 constexpr double kFlashPatience = 60.0;  // s
 constexpr int kLook = 2;                 // ms between looks at a line on which nothing happens
-
-UdpConfig udp_config(const std::string& text) {
-  UdpConfig config;
-  const std::size_t colon = text.rfind(':');
-  config.host = text.substr(0, colon);
-  if (colon != std::string::npos) {
-    try {
-      std::size_t read = 0;
-      config.port = std::stoi(text.substr(colon + 1), &read);
-      if (read + colon + 1 != text.size()) config.port = 0;
-    } catch (const std::exception&) {
-      config.port = 0;
-    }
-  }
-  constexpr int kGreatestPort = 65535;
-  if (config.host.empty() || config.port < 1 || config.port > kGreatestPort) {
-    throw ConfigError("--udp = " + text + ": must be HOST or HOST:PORT, for example localhost:14525");
-  }
-  return config;
-}
 
 }  // namespace
 
@@ -65,7 +44,12 @@ std::unique_ptr<ByteStream> open_line(const UnitAddress& address) {
     throw ConfigError("say where the unit is: either --port DEVICE or --udp HOST[:PORT]");
   }
   if (!address.udp.empty()) {
-    auto socket = std::make_unique<UdpSocket>(udp_config(address.udp));
+    const auto peer = hil_bridge::transport::udp_peer(address.udp);
+    if (!peer) {
+      throw ConfigError("--udp = " + address.udp +
+                        ": must be HOST or HOST:PORT, for example localhost:14525");
+    }
+    auto socket = std::make_unique<UdpSocket>(*peer);
     socket->open();
     return socket;
   }

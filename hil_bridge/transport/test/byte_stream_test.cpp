@@ -286,6 +286,21 @@ TEST(UdpSocketTest, StaysUpWhileNobodyListens) {
   EXPECT_TRUE(socket.is_up());
 }
 
+TEST(UdpSocketTest, ReadsTheOtherSideAsAUserWritesIt) {
+  const auto usual = udp_peer("unit.local");
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(usual->host, "unit.local");
+  EXPECT_EQ(usual->port, UdpConfig{}.port);
+  EXPECT_EQ(usual->local_port, UdpConfig{}.local_port);
+  const auto own = udp_peer("10.0.0.7:65535");
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->host, "10.0.0.7");
+  EXPECT_EQ(own->port, 65535);
+  for (const char* text : {"", ":14525", "host:", "host:0", "host:65536", "host:12x", "host: 12", "host:-1"}) {
+    EXPECT_FALSE(udp_peer(text)) << text;
+  }
+}
+
 TEST(UdpSocketTest, RefusesAHostThatDoesNotExist) {
   UdpSocket socket({own_port(0), "no.such.host.invalid", own_port(1)});
   EXPECT_THROW(socket.open(), LinkError);
