@@ -1,7 +1,8 @@
-// A bench in small: a control loop that commands half thrust over a serial line, a second thread, and a
-// watchdog over both. The test stops it, kills it and lets its threads deadlock.
+// A bench in small: a control loop that commands half thrust over a line, a second thread, and a watchdog over
+// both. The test stops it, kills it and lets its threads deadlock.
 //
 //   guarded_bench DEVICE bench|flight open|closed
+//   guarded_bench udp:OWN_PORT:UNITS_PORT bench|flight open|closed
 //
 // SIGUSR1: the control loop deadlocks. SIGUSR2: the other thread does. SIGTERM: a clean end. Says on standard
 // output, once, what it ended for.
@@ -13,6 +14,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
@@ -21,6 +23,7 @@
 #include "hil_bridge/interlock/watchdog/watchdog.hpp"
 #include "hil_bridge/rosflight/frame_codec.hpp"
 #include "hil_bridge/transport/serial_port.hpp"
+#include "hil_bridge/transport/udp_socket.hpp"
 
 namespace {
 
@@ -41,30 +44,41 @@ Time now() {
   return std::chrono::steady_clock::now().time_since_epoch();
 }
 
+std::unique_ptr<transport::ByteStream> open_line(const std::string& address) {
+  transport::UdpConfig ports;
+  if (std::sscanf(address.c_str(), "udp:%d:%d", &ports.local_port, &ports.port) == 2) {
+    auto socket = std::make_unique<transport::UdpSocket>(ports);
+    socket->open();
+    return socket;
+  }
+  auto port = std::make_unique<transport::SerialPort>(transport::SerialPortConfig{address, 921600});
+  port->open();
+  return port;
+}
+
 /// What the control loop does with the line: empties it, brings it up again, commands.
 class Commander {
  public:
-  Commander(const std::string& device, bool open, Watchdog& watchdog)
-      : port_({device, 921600}), watchdog_(watchdog), open_(open) {
-    port_.open();
-    watchdog_.guard_line(port_.descriptor());
+  Commander(const std::string& address, bool open, Watchdog& watchdog)
+      : line_(open_line(address)), watchdog_(watchdog), open_(open) {
+    watchdog_.guard_line(line_->descriptor());
   }
 
   void pass() {
-    if (!port_.is_up() && port_.reopen()) watchdog_.guard_line(port_.descriptor());
+    if (!line_->is_up() && line_->reopen()) watchdog_.guard_line(line_->descriptor());
     std::array<std::uint8_t, 4096> bytes{};
-    while (port_.read(bytes) > 0) {
+    while (line_->read(bytes) > 0) {
     }
     watchdog_.gate_open(open_);
-    if (!port_.is_up() || !open_) return;
+    if (!line_->is_up() || !open_) return;
     rosflight::OffboardControl half;
     half.u[2] = -0.5F;
     const auto frame = rosflight::encode_frame(half, sequence_++, {1, 50});
-    port_.write(std::span(frame.bytes).first(frame.size));
+    line_->write(std::span(frame.bytes).first(frame.size));
   }
 
  private:
-  transport::SerialPort port_;
+  std::unique_ptr<transport::ByteStream> line_;
   Watchdog& watchdog_;
   bool open_;
   std::uint8_t sequence_ = 0;

@@ -3,10 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "hil_bridge/interlock/watchdog/test/watched_unit.hpp"
+#include "hil_bridge/transport/pseudo_terminal.hpp"
+#include "hil_bridge/transport/udp_socket.hpp"
 
 namespace ironbird::hil_bridge {
 namespace {
@@ -18,6 +24,8 @@ using test::kBenchsMotors;
 using test::kIdleMotors;
 using test::kPilotsMotors;
 using test::WatchedUnit;
+using transport::PseudoTerminal;
+using transport::UdpSocket;
 using testing::HasSubstr;
 
 constexpr double kClose = 0.01;
@@ -50,8 +58,9 @@ class MishapTest : public testing::TestWithParam<Mishap> {
 
   /// The bench flies, the mishap happens, and then it is continued, should it still be there.
   Outcome let_it_happen(InterlockProfile profile, double motors_after) {
-    WatchedUnit unit(testing::TempDir() + "ironbird_watchdog_" + GetParam().name);
-    BenchProcess bench(unit.line.name(), profile);
+    PseudoTerminal terminal(testing::TempDir() + "ironbird_watchdog_" + GetParam().name);
+    WatchedUnit unit(terminal);
+    BenchProcess bench(terminal.name(), profile);
     unit.until(kPatience, [&] { return unit.motor() > kBenchsMotors - kClose; });
     EXPECT_NEAR(unit.motor(), kBenchsMotors, kClose) << "the bench never flew";
     bench.signal(GetParam().signal);
@@ -120,13 +129,14 @@ INSTANTIATE_TEST_SUITE_P(
 class WatchdogTest : public testing::Test {
  protected:
   void fly(InterlockProfile profile) {
-    bench_.emplace(unit_.line.name(), profile);
+    bench_.emplace(terminal_.name(), profile);
     unit_.until(kPatience, [&] { return unit_.motor() > kBenchsMotors - kClose; });
     ASSERT_NEAR(unit_.motor(), kBenchsMotors, kClose);
   }
 
-  WatchedUnit unit_{testing::TempDir() + "ironbird_" +
-                    testing::UnitTest::GetInstance()->current_test_info()->name()};
+  PseudoTerminal terminal_{testing::TempDir() + "ironbird_" +
+                           testing::UnitTest::GetInstance()->current_test_info()->name()};
+  WatchedUnit unit_{terminal_};
   std::optional<BenchProcess> bench_;
 };
 
@@ -182,7 +192,7 @@ TEST_F(WatchdogTest, IsNotReachedByWhatEndsTheBench) {
 
 TEST_F(WatchdogTest, LeavesTheUnitToThePilotWhenTheLineIsCut) {
   fly(InterlockProfile::kBench);
-  unit_.line.terminal.hang_up();
+  terminal_.hang_up();
   const Time took = unit_.until(kPatience, [&] { return unit_.motor() < kBenchsMotors - kClose; });
   EXPECT_NEAR(unit_.motor(), kPilotsMotors, kClose);
   EXPECT_LE(took, kGoal);
@@ -191,9 +201,9 @@ TEST_F(WatchdogTest, LeavesTheUnitToThePilotWhenTheLineIsCut) {
 
 TEST_F(WatchdogTest, SendsItsZerosOverTheLineThatCameBack) {
   fly(InterlockProfile::kBench);
-  unit_.line.terminal.hang_up();
+  terminal_.hang_up();
   unit_.until(kPatience, [&] { return unit_.motor() < kBenchsMotors - kClose; });
-  ASSERT_TRUE(unit_.line.reopen());
+  ASSERT_TRUE(terminal_.reopen());
   unit_.until(kPatience, [&] { return unit_.motor() > kBenchsMotors - kClose; });
   bench_->signal(SIGKILL);
   unit_.until(kPatience, [&] { return unit_.motor() < kBenchsMotors - kClose; });
@@ -205,7 +215,7 @@ TEST_F(WatchdogTest, SendsItsZerosOverTheLineThatCameBack) {
 }
 
 TEST_F(WatchdogTest, SendsNothingForABenchWhoseGateIsClosed) {
-  bench_.emplace(unit_.line.name(), InterlockProfile::kBench, /*gate_open=*/false);
+  bench_.emplace(terminal_.name(), InterlockProfile::kBench, /*gate_open=*/false);
   unit_.pass(milliseconds(300));
   bench_->signal(SIGSTOP);
   unit_.until(kPatience, [&] { return !bench_->watchdog_lives(); });
@@ -231,10 +241,62 @@ TEST_F(WatchdogTest, EndsWhenTheLineGoesBetweenItsZeros) {
   bench_->signal(SIGKILL);
   unit_.until(kPatience, [&] { return unit_.line.zeros > 0; });
   ASSERT_GT(unit_.line.zeros, 0);
-  unit_.line.terminal.hang_up();
+  terminal_.hang_up();
   const Time took = unit_.until(kPatience, [&] { return !bench_->watchdog_lives(); });
   EXPECT_LT(took, seconds(1)) << "guarded_bench asks for two seconds of zeros";
   EXPECT_THAT(bench_->complaints(), HasSubstr("the line to the unit is gone: disarm it by radio"));
+}
+
+class DatagramTest : public testing::Test {
+ protected:
+  void fly() {
+    units_line_->open();
+    unit_.emplace(*units_line_);
+    bench_.emplace("udp:" + std::to_string(kOwnPort) + ":" + std::to_string(kUnitsPort),
+                   InterlockProfile::kBench);
+    unit_->until(kPatience, [&] { return unit_->motor() > kBenchsMotors - kClose; });
+    ASSERT_NEAR(unit_->motor(), kBenchsMotors, kClose);
+  }
+
+  static constexpr int kOwnPort = 14020;
+  static constexpr int kUnitsPort = 14025;
+  std::optional<UdpSocket> units_line_{std::in_place,
+                                       transport::UdpConfig{kUnitsPort, "localhost", kOwnPort}};
+  std::optional<WatchedUnit> unit_;
+  std::optional<BenchProcess> bench_;
+};
+
+TEST_F(DatagramTest, ADeadBenchEndsInZerosUntilTheUnitIsDisarmed) {
+  fly();
+  bench_->signal(SIGKILL);
+  const Time took = unit_->until(kPatience, [&] { return unit_->motor() < kBenchsMotors - kClose; });
+  EXPECT_LE(took, kGoal);
+  unit_->pass(milliseconds(300));
+  EXPECT_NEAR(unit_->motor(), kIdleMotors, kClose);
+  EXPECT_GT(unit_->line.zeros, 20);
+  unit_->pilot().arm(false);
+  unit_->until(kPatience, [&] { return !bench_->watchdog_lives(); });
+  EXPECT_FALSE(bench_->watchdog_lives());
+  EXPECT_EQ(unit_->line.others, 0);
+  EXPECT_THAT(bench_->complaints(), HasSubstr("the unit says that it is disarmed"));
+}
+
+// Of datagrams nobody says that the other side is gone: the zeros go on for their time, and not without rest.
+TEST_F(DatagramTest, SendsItsZerosWhenNobodyIsThereAndEnds) {
+  fly();
+  bench_->signal(SIGKILL);
+  unit_->until(kPatience, [&] { return unit_->line.zeros > 0; });
+  ASSERT_GT(unit_->line.zeros, 0);
+  units_line_.reset();
+  const auto began = std::chrono::steady_clock::now();
+  double worked = 0.0;
+  while (bench_->watchdog_lives() && std::chrono::steady_clock::now() - began < kPatience) {
+    worked = std::max(worked, bench_->watchdogs_cpu_seconds());
+    std::this_thread::sleep_for(milliseconds(10));
+  }
+  EXPECT_FALSE(bench_->watchdog_lives());
+  EXPECT_LT(worked, 0.2) << "of the two seconds of zeros that guarded_bench asks for";
+  EXPECT_THAT(bench_->complaints(), HasSubstr("has not said that it is disarmed: disarm it by radio"));
 }
 
 TEST(WatchdogStartTest, RefusesToBeStartedBesideThreads) {

@@ -21,18 +21,19 @@
 #include "hil_bridge/interlock/interlock.hpp"
 #include "hil_bridge/rosflight/stream_decoder.hpp"
 #include "hil_bridge/serial_fcu/test/served_unit.hpp"
-#include "hil_bridge/transport/pseudo_terminal.hpp"
+#include "hil_bridge/transport/byte_stream.hpp"
+#include "hil_bridge/transport/file_descriptor.hpp"
 
-// An armed unit behind a pseudo-terminal, in real time, and a bench in another process that commands it.
+// An armed unit at the end of a line, in real time, and a bench in another process that commands it.
 
 namespace ironbird::hil_bridge::test {
 
 /// The unit's end of the line; remembers which motor commands came.
-class TappedTerminal final : public transport::ByteStream {
+class TappedLine final : public transport::ByteStream {
  public:
-  explicit TappedTerminal(const std::string& link) : terminal(link) {}
+  explicit TappedLine(transport::ByteStream& line) : line_(line) {}
   std::size_t read(std::span<std::uint8_t> to) override {
-    const std::size_t count = terminal.read(to);
+    const std::size_t count = line_.read(to);
     decoder_.push(to.first(count), [&](const rosflight::Frame& frame) {
       const auto* command = std::get_if<rosflight::OffboardControl>(&frame.message);
       if (command == nullptr) {
@@ -45,18 +46,18 @@ class TappedTerminal final : public transport::ByteStream {
     });
     return count;
   }
-  std::size_t write(std::span<const std::uint8_t> from) override { return terminal.write(from); }
-  bool is_up() const override { return terminal.is_up(); }
-  bool reopen() override { return terminal.reopen(); }
-  int descriptor() const override { return terminal.descriptor(); }
-  std::string name() const override { return terminal.name(); }
+  std::size_t write(std::span<const std::uint8_t> from) override { return line_.write(from); }
+  bool is_up() const override { return line_.is_up(); }
+  bool reopen() override { return line_.reopen(); }
+  int descriptor() const override { return line_.descriptor(); }
+  std::string name() const override { return line_.name(); }
 
-  transport::PseudoTerminal terminal;
   int zeros = 0;
   int thrusts = 0;
   int others = 0;
 
  private:
+  transport::ByteStream& line_;
   rosflight::StreamDecoder decoder_;
 };
 
@@ -79,7 +80,8 @@ class WatchedUnit {
  public:
   static constexpr Time kTick = std::chrono::microseconds(2500);
 
-  explicit WatchedUnit(const std::string& link) : line(link), unit_(quadrotor()), served_(unit_, line) {
+  explicit WatchedUnit(transport::ByteStream& stream)
+      : line(stream), unit_(quadrotor()), served_(unit_, line) {
     // The first seconds, in which it calibrates, may go as fast as they like.
     const auto hurry = [&](double seconds) {
       for (int k = 0; k < static_cast<int>(seconds / 0.0025); ++k) tick();
@@ -111,7 +113,7 @@ class WatchedUnit {
   bool armed() { return unit_.host().firmware().arming().armed(); }
   RcPilot& pilot() { return unit_.host().pilot(); }
 
-  TappedTerminal line;
+  TappedLine line;
 
  private:
   void tick() {
@@ -129,7 +131,8 @@ class WatchedUnit {
 /// The process of guarded_bench.cpp.
 class BenchProcess {
  public:
-  BenchProcess(const std::string& device, InterlockProfile profile, bool gate_open = true) {
+  /// @param address  the device of a serial line, or udp:PORT:PORT, its own and the unit's
+  BenchProcess(const std::string& address, InterlockProfile profile, bool gate_open = true) {
     std::array<int, 2> out{};
     std::array<int, 2> error{};
     if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(error.data(), O_CLOEXEC) != 0) return;
@@ -137,7 +140,7 @@ class BenchProcess {
     if (process_ == 0) {
       dup2(out[1], STDOUT_FILENO);
       dup2(error[1], STDERR_FILENO);
-      execl(GUARDED_BENCH, "guarded_bench", device.c_str(),
+      execl(GUARDED_BENCH, "guarded_bench", address.c_str(),
             profile == InterlockProfile::kFlight ? "flight" : "bench", gate_open ? "open" : "closed",
             nullptr);
       _exit(127);
@@ -163,6 +166,16 @@ class BenchProcess {
     char state = 'Z';
     stream >> number >> name >> state;
     return state != 'Z' && state != 'X';
+  }
+  /// Time that the watchdog has had a core for; 0 when it has gone.
+  double watchdogs_cpu_seconds() const {
+    std::ifstream stream("/proc/" + std::to_string(watchdog_) + "/stat");
+    constexpr int kUserTime = 13;  // fields before it, see proc(5)
+    std::string skipped;
+    for (int k = 0; k < kUserTime; ++k) stream >> skipped;
+    double user = 0.0, system = 0.0;
+    stream >> user >> system;
+    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
   }
   /// Has it ended, and how? As waitpid says; nothing while it lives.
   std::optional<int> ended() {
