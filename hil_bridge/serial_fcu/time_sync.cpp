@@ -10,7 +10,7 @@ namespace {
 using std::chrono::microseconds;
 
 constexpr Time kSlowerThanLeast = microseconds(500);     // of a round trip, still believed
-constexpr Time kWrong = std::chrono::milliseconds(10);    // beyond what an exchange leaves possible
+constexpr Time kWrong = std::chrono::milliseconds(10);   // beyond what an exchange leaves possible
 constexpr Time kCatchUp = std::chrono::seconds(1);       // in which the line used reaches the fitted one
 constexpr Time kShortestSpan = std::chrono::seconds(4);  // of samples that tell a drift,
 constexpr double kFewest = 8.0;                          // and how many it takes

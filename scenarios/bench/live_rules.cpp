@@ -25,7 +25,8 @@ std::vector<std::string> live_findings(const LoadedScenario& loaded) {
   const Scenario& scenario = loaded.scenario;
   std::vector<std::string> findings;
   if (scenario.fcu.line.empty()) {
-    findings.emplace_back("fcu.line: must say where the unit is, as /dev/serial/by-id/NAME or udp:HOST[:PORT]");
+    findings.emplace_back(
+        "fcu.line: must say where the unit is, as /dev/serial/by-id/NAME or udp:HOST[:PORT]");
   }
   for (std::size_t i = 0; i < scenario.events.size(); ++i) {
     if (!scenario.events[i].fault) continue;

@@ -296,7 +296,8 @@ TEST(UdpSocketTest, ReadsTheOtherSideAsAUserWritesIt) {
   ASSERT_TRUE(own);
   EXPECT_EQ(own->host, "10.0.0.7");
   EXPECT_EQ(own->port, 65535);
-  for (const char* text : {"", ":14525", "host:", "host:0", "host:65536", "host:12x", "host: 12", "host:-1"}) {
+  for (const char* text :
+       {"", ":14525", "host:", "host:0", "host:65536", "host:12x", "host: 12", "host:-1"}) {
     EXPECT_FALSE(udp_peer(text)) << text;
   }
 }

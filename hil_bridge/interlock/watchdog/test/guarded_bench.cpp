@@ -1,5 +1,5 @@
-// A bench in small: a control loop that commands half thrust over a line, a second thread, and a watchdog over
-// both. The test stops it, kills it and lets its threads deadlock.
+// A bench in small: a control loop that commands half thrust over a line, a second thread, and a watchdog
+// over both. The test stops it, kills it and lets its threads deadlock.
 //
 //   guarded_bench DEVICE bench|flight open|closed
 //   guarded_bench udp:OWN_PORT:UNITS_PORT bench|flight open|closed

@@ -24,9 +24,9 @@ using test::kBenchsMotors;
 using test::kIdleMotors;
 using test::kPilotsMotors;
 using test::WatchedUnit;
+using testing::HasSubstr;
 using transport::PseudoTerminal;
 using transport::UdpSocket;
-using testing::HasSubstr;
 
 constexpr double kClose = 0.01;
 // Within this the unit has to be out of the dead bench's hands. A machine that is busy with other things may
