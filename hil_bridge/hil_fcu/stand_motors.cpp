@@ -1,12 +1,20 @@
 #include "hil_bridge/hil_fcu/stand_motors.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace ironbird::hil_bridge {
 
+namespace {
+
+constexpr double kRadPerSecond = 2.0 * std::numbers::pi / 60.0;  // of a revolution per minute
+
+}  // namespace
+
 StandMotors::StandMotors(const can::EscControllerParams& params, transport::FrameBus& bus,
                          const InterlockStatus& gate, Time start)
-    : controller_(params, bus, start),
+    : bus_(bus),
+      controller_(params, bus, start),
       gate_(gate),
       zeros_(static_cast<std::size_t>(params.count)),
       wanted_(zeros_),
@@ -36,10 +44,24 @@ void StandMotors::step(Time now) {
     controller_.command(wanted_, now);
   } else {
     const bool above_zero = std::any_of(wanted_.begin(), wanted_.end(), [](double t) { return t != 0.0; });
-    if (above_zero && wanted_at_ != Time::min()) ++refused_;
+    if (above_zero && wanted_at_ != Time::min()) ++status_.refused;
     if (opened_) stop(now);
   }
   controller_.step(now);
+  status_.turning = turn;
+  look(now);
+}
+
+void StandMotors::look(Time now) {
+  status_.state = bus_.state();
+  status_.frames = bus_.counters();
+  const std::size_t count = std::min(zeros_.size(), status_.motors.size());
+  for (std::size_t motor = 0; motor < count; ++motor) {
+    const can::EscStatus& report = controller_.motor(motor).status;
+    status_.motors[motor] = {controller_.motor_ready(motor, now),     report.rpm * kRadPerSecond,
+                             static_cast<double>(report.voltage),     static_cast<double>(report.current),
+                             static_cast<double>(report.temperature), report.error_count};
+  }
 }
 
 void StandMotors::stop(Time now) {

@@ -1,12 +1,54 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "hil_bridge/can/esc_controller.hpp"
 #include "hil_bridge/interlock/interlock.hpp"
+#include "simulator/types/rotor_commands.hpp"
 
 namespace ironbird::hil_bridge {
+
+/// What one motor controller on the stand tells.
+struct StandMotor {
+  bool ready = false;
+  double speed = 0.0;
+  double voltage = 0.0;
+  double current = 0.0;
+  double temperature = 0.0;
+  std::uint32_t errors = 0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("ready", self.ready, "1", "its node lives, does not complain, and reports");
+    visit("speed", self.speed, "rad/s", "negative backward; this and the rest as last reported");
+    visit("voltage", self.voltage, "V", "of the supply");
+    visit("current", self.current, "A", "from the supply");
+    visit("temperature", self.temperature, "K", "of the controller");
+    visit("errors", self.errors, "1", "since it started");
+  }
+};
+
+/// What goes on on the stand's bus.
+struct StandStatus {
+  transport::BusState state = transport::BusState::kActive;
+  transport::BusCounters frames;
+  bool turning = false;
+  std::uint64_t refused = 0;
+  std::array<StandMotor, simulator::kMaxRotors> motors{};
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("state", self.state, "1", "of the controller");
+    visit("frames", self.frames, "", "that went through this end");
+    visit("turning", self.turning, "1", "the last command was the unit's; false: zeros, or none");
+    visit("refused", self.refused, "1", "commands above zero that did not leave");
+    visit("motors", self.motors, "", "what each tells");
+  }
+};
 
 /// Real motors on a stand, on a bus on which the bench is the one who commands them: the gate of the bus,
 /// docs/safety.md R11.
@@ -35,21 +77,24 @@ class StandMotors {
   /// Takes what arrived, sends one command for all motors. Call it in every control period.
   void step(Time now);
 
-  /// How many commands above zero did not leave.
-  std::uint64_t refused() const { return refused_; }
+  const StandStatus& status() const { return status_; }
   const can::EscController& controller() const { return controller_; }
+  /// The oldest event of the bus that nobody has taken.
+  std::optional<transport::BusEvent> take_event() { return bus_.take_event(); }
 
  private:
   bool sound() const;
   void stop(Time now);
+  void look(Time now);
 
+  transport::FrameBus& bus_;
   can::EscController controller_;
   const InterlockStatus& gate_;
   std::vector<double> zeros_;
   std::vector<double> wanted_;
   Time wanted_at_ = Time::min();
   Time now_;
-  std::uint64_t refused_ = 0;
+  StandStatus status_;
   bool opened_ = false;
 };
 

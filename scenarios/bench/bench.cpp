@@ -63,6 +63,10 @@ void Bench::wire_log() {
     log_->recorder().add("/can/motors", rig_->motors()->status(),
                          from_seconds(scenario_.record.signal_period), Recorder::When::kAlways);
   }
+  if (rig_ && rig_->stand() != nullptr) {
+    log_->recorder().add("/stand/motors", rig_->stand()->status(),
+                         from_seconds(scenario_.record.signal_period), Recorder::When::kAlways);
+  }
 }
 
 /// The gate is the same as before a real unit. Who releases it is the simulated pilot, just before they arm;
@@ -84,7 +88,10 @@ void Bench::wire_unit() {
   }
   guard_ = std::make_unique<hil_bridge::Guard>(interlock_config(scenario_), *unit_watch_);
   if (line_) line_->set_gate(*guard_);
-  if (rig_) rig_->set_gate(*guard_);
+  if (rig_) {
+    rig_->set_gate(*guard_);
+    rig_->open_stand(guard_->status());
+  }
   lockstep_ = std::make_unique<hil_bridge::Lockstep>(*reached, *autopilot_, *guard_, scenario_.fcu.tick);
 }
 
@@ -146,6 +153,7 @@ Verdict Bench::fly() {
       }
     }
   }
+  close_gate();
   if (log_) log_->close();
   return finish(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
@@ -187,9 +195,29 @@ void Bench::watch_link(Time now) {
       judge_->event(now, "can", std::string(hil_bridge::transport::name_of(event->kind)));
     }
   }
+  if (rig_ && rig_->stand() != nullptr) watch_stand(now);
   if ((!rig_ && !line_) || now < next_health_) return;
   next_health_ = now + kHealthPeriod;
   link_health_ = (rig_ ? rig_->serial() : line_->serial()).health(now);
+}
+
+void Bench::watch_stand(Time now) {
+  while (const auto event = rig_->stand()->take_event()) {
+    judge_->event(now, "stand", std::string(hil_bridge::transport::name_of(event->kind)));
+  }
+  const auto& motors = rig_->stand()->status().motors;
+  for (std::size_t motor = 0; motor < scenario_.vehicle.rotors.size(); ++motor) {
+    if (motors[motor].ready == stand_ready_[motor]) continue;
+    stand_ready_[motor] = motors[motor].ready;
+    judge_->event(now, "stand",
+                  "motor " + std::to_string(motor) + (motors[motor].ready ? " is ready" : " is not ready"));
+  }
+}
+
+/// Before the paper work: the motors of a stand get their zeros now.
+void Bench::close_gate() {
+  guard_->close(lockstep_->now());
+  if (rig_ && rig_->stand() != nullptr) rig_->stand()->step(lockstep_->now());
 }
 
 void Bench::publish_events(Time now) {

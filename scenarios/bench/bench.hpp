@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -97,6 +98,8 @@ class Bench {
   void watch(Time now);
   void watch_interlock(Time now);
   void watch_link(Time now);
+  void watch_stand(Time now);
+  void close_gate();
   void publish_events(Time now);
   Verdict finish(double wall_seconds);
 
@@ -123,6 +126,7 @@ class Bench {
   RunningLinkFaults bus_faults_;
   hil_bridge::LinkHealth link_health_;
   hil_bridge::CanMotorsStatus no_motors_;
+  std::array<bool, simulator::kMaxRotors> stand_ready_{};
   Time next_health_{};
   std::vector<std::string> broken_promises_;
   std::size_t published_events_ = 0;

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "hil_bridge/hil_fcu/hil_fcu.hpp"
+#include "hil_bridge/hil_fcu/stand_motors.hpp"
 #include "hil_bridge/serial_fcu/serial_fcu.hpp"
 #include "hil_bridge/transport/bus_fault.hpp"
 #include "hil_bridge/transport/link_fault.hpp"
@@ -27,6 +28,11 @@ class HilRig {
   virtual hil_bridge::transport::BusFault* bus_faults() = 0;
   /// Null: OUTPUT_RAW turns the rotors.
   virtual hil_bridge::CanMotors* motors() = 0;
+  /// From now on the real motors of the stand, if there is one, do what gate and unit let them.
+  /// @param gate  outlives this
+  virtual void open_stand(const hil_bridge::InterlockStatus& gate) = 0;
+  /// Null: there is none, or it is not open yet.
+  virtual hil_bridge::StandMotors* stand() = 0;
   /// By how much the run fell behind a unit that does not wait.
   virtual hil_bridge::Time lost() const = 0;
 };

@@ -18,13 +18,14 @@ class HilRules {
     if (fcu_.kind == FcuKind::kSerial && loaded_.gives("fcu.link_fault"))
       report("fcu.link_fault: the line to a real vehicle is not made to fail; leave it away" + kRemedy);
     if (fcu_.kind != FcuKind::kHil) {
-      for (const char* key : {"motors", "can_fd", "external_attitude", "bus_fault", "time_scale"}) {
+      for (const char* key : {"motors", "stand", "can_fd", "external_attitude", "bus_fault", "time_scale"}) {
         const std::string path = std::string("fcu.") + key;
         if (loaded_.gives(path)) report(path + ": has no meaning here; it belongs to fcu.kind = \"hil\"");
       }
       return findings_;
     }
     check_motors();
+    if (loaded_.gives("fcu.stand")) check_stand();
     if (fcu_.has_own_unit() && loaded_.gives("fcu.time_scale"))
       report("fcu.time_scale: a unit in this process knows no clock; it belongs to one at the end of a line");
     if (fcu_.motors == kOutputRaw && loaded_.gives("fcu.bus_fault"))
@@ -37,13 +38,32 @@ class HilRules {
     const std::string& motors = fcu_.motors;
     if (motors == kOutputRaw) return;
     const std::string shown = "fcu.motors = \"" + motors + "\": ";
-    const bool interface = motors.starts_with(kCanInterface) && motors.size() > kCanInterface.size();
+    const bool interface = names_interface(motors);
     if (motors != kOwnBus && !interface) return report(shown + "must be output_raw, can, or can:INTERFACE");
     if (interface && fcu_.has_own_unit()) {
       report(shown + "a unit in this process has its motors on a bus in this process; write \"can\"");
     } else if (!interface && !fcu_.has_own_unit()) {
       report(shown + "say on which interface of this machine they are, as \"can:can0\"");
     }
+  }
+
+  void check_stand() {
+    const std::string shown = "fcu.stand = \"" + fcu_.stand + "\": ";
+    if (!names_interface(fcu_.stand)) {
+      report(shown +
+             "must say on which interface of this machine the motor controllers are, as \"can:can0\"");
+    } else if (fcu_.has_own_unit()) {
+      report(shown +
+             "a unit in this process flies faster than real motors turn; it belongs to one at the end of a "
+             "line");
+    } else if (fcu_.motors != kOutputRaw) {
+      report(shown +
+             "a unit with motors on a bus commands them itself; it belongs to fcu.motors = \"output_raw\"");
+    }
+  }
+
+  static bool names_interface(const std::string& text) {
+    return text.starts_with(kCanInterface) && text.size() > kCanInterface.size();
   }
 
   void report(const std::string& finding) { findings_.push_back(finding); }

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "hil_bridge/executive/paced_fcu.hpp"
+#include "hil_bridge/hil_fcu/stand_unit.hpp"
 #include "hil_bridge/rosflight/frame_codec.hpp"
 #include "hil_bridge/transport/machine_clock.hpp"
 #include "hil_bridge/transport/serial_port.hpp"
@@ -39,10 +40,11 @@ std::unique_ptr<ByteStream> open_line(const FcuConfig& fcu) {
   return port;
 }
 
-std::unique_ptr<SocketCan> open_bus(const FcuConfig& fcu) {
+/// @param where  can:INTERFACE
+std::unique_ptr<SocketCan> open_bus(const std::string& where, bool fd) {
   SocketCanParams params;
-  params.interface = fcu.motors.substr(kCanInterface.size());
-  params.fd = fcu.can_fd;
+  params.interface = where.substr(kCanInterface.size());
+  params.fd = fd;
   try {
     return std::make_unique<SocketCan>(params, machine_time());
   } catch (const std::invalid_argument& error) {
@@ -77,7 +79,9 @@ class LineRig final : public HilRig {
                 {.system = static_cast<std::uint8_t>(unit_parameter(scenario, "SYS_ID"))}),
         end_(serial_, line_fault_.get()) {
     if (scenario.fcu.motors != kOutputRaw) wire_bus(scenario, faults);
-    hil_.emplace(scenario.fcu, world, end_, motors(), scenario.fcu.external_attitude);
+    if (!scenario.fcu.stand.empty()) wire_stand(scenario);
+    hil_bridge::Fcu& unit = stand_ ? static_cast<hil_bridge::Fcu&>(*stand_) : end_;
+    hil_.emplace(scenario.fcu, world, unit, motors(), scenario.fcu.external_attitude);
     paced_.emplace(*hil_, scenario.fcu.time_scale);
   }
 
@@ -88,14 +92,26 @@ class LineRig final : public HilRig {
   LinkFault* line_faults() override { return line_fault_.get(); }
   BusFault* bus_faults() override { return bus_fault_ ? &*bus_fault_ : nullptr; }
   hil_bridge::CanMotors* motors() override { return motors_ ? &*motors_ : nullptr; }
+  void open_stand(const hil_bridge::InterlockStatus& gate) override {
+    if (stand_) stand_->open(gate);
+  }
+  hil_bridge::StandMotors* stand() override { return stand_ ? stand_->motors() : nullptr; }
   Time lost() const override { return paced_->lost(); }
 
  private:
   void wire_bus(const Scenario& scenario, bool faults) {
-    bus_ = open_bus(scenario.fcu);
+    bus_ = open_bus(scenario.fcu.motors, scenario.fcu.can_fd);
     if (faults) bus_fault_.emplace(*bus_, scenario.fcu.bus_fault, scenario.seed);
     FrameBus& end = bus_fault_ ? static_cast<FrameBus&>(*bus_fault_) : *bus_;
     motors_.emplace(played_escs(scenario), scenario.vehicle.rotor, end, Time{0}, bus_faults());
+  }
+
+  void wire_stand(const Scenario& scenario) {
+    bus_ = open_bus(scenario.fcu.stand, scenario.fcu.can_fd);
+    hil_bridge::can::EscControllerParams params;
+    params.count = static_cast<int>(scenario.vehicle.rotors.size());
+    params.fd = scenario.fcu.can_fd;
+    stand_.emplace(end_, params, *bus_);
   }
 
   std::unique_ptr<ByteStream> line_;
@@ -105,6 +121,7 @@ class LineRig final : public HilRig {
   std::unique_ptr<SocketCan> bus_;
   std::optional<BusFault> bus_fault_;
   std::optional<hil_bridge::CanMotors> motors_;
+  std::optional<hil_bridge::StandUnit> stand_;
   std::optional<hil_bridge::HilFcu> hil_;
   std::optional<hil_bridge::PacedFcu> paced_;
 };

@@ -85,6 +85,8 @@ class OwnUnitRig final : public HilRig {
   hil_bridge::transport::LinkFault* line_faults() override { return line_->faults(); }
   BusFault* bus_faults() override { return bus_fault_ ? &*bus_fault_ : nullptr; }
   CanMotors* motors() override { return motors_ ? &*motors_ : nullptr; }
+  void open_stand(const hil_bridge::InterlockStatus&) override {}
+  hil_bridge::StandMotors* stand() override { return nullptr; }
   Time lost() const override { return {}; }
 
  private:

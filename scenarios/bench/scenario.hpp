@@ -70,6 +70,7 @@ struct FcuConfig : hil_bridge::VirtualFcuConfig {
   int baud = 921600;
   double time_scale = 1.0;
   std::string motors{kOutputRaw};
+  std::string stand;
   bool can_fd = false;
   double external_attitude = 0.0;
   hil_bridge::transport::LinkFaultConfig link_fault;
@@ -92,7 +93,9 @@ struct FcuConfig : hil_bridge::VirtualFcuConfig {
     visit("time_scale", self.time_scale, "1",
           "hil over a line: seconds of the run in a second of the clock, as the unit's own", 0.001, 1.0);
     visit("motors", self.motors, "", "hil, what turns the rotors: output_raw, can, or can:INTERFACE");
-    visit("can_fd", self.can_fd, "1", "hil: the motor controllers report in CAN FD frames");
+    visit("stand", self.stand, "",
+          "hil with output_raw: real motor controllers that do what the unit's outputs tell, can:INTERFACE");
+    visit("can_fd", self.can_fd, "1", "hil: CAN FD frames on the bus of the motors, or of the stand");
     visit("external_attitude", self.external_attitude, "Hz",
           "hil: how often the unit is told the simulated attitude; 0: never", 0.0, 400.0);
     visit("link_fault", self.link_fault, "", "what goes wrong with the line, where there is one");

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "hil_bridge/hil_fcu/test/puppet.hpp"
 #include "hil_bridge/transport/in_process_bus.hpp"
 #include "hil_bridge/virtual_fcu/can_outputs.hpp"
 #include "simulator/plant/rigid_body_plant.hpp"
@@ -13,24 +14,9 @@
 namespace ironbird::hil_bridge {
 namespace {
 
+using test::Puppet;
+
 constexpr Time kTick = std::chrono::microseconds(2500);
-
-/// A unit that says what the test wants, and remembers what it was told.
-class Puppet final : public Fcu {
- public:
-  void advance(Time now) override { now_ = now; }
-  void receive(std::vector<Arrival>& out) override {
-    for (const rosflight::Message& message : says) out.push_back({now_, message});
-    says.clear();
-  }
-  void send(const rosflight::Message& message) override { told.push_back(message); }
-
-  std::vector<rosflight::Message> says;
-  std::vector<rosflight::Message> told;
-
- private:
-  Time now_{};
-};
 
 simulator::WorldConfig world_config() {
   simulator::WorldConfig config;

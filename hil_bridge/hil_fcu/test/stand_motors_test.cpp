@@ -63,10 +63,10 @@ TEST(StandMotorsTest, TurnsMotorsOnlyWhileTheGateIsLive) {
     stand.run(100);
     if (state == InterlockState::kLive) {
       EXPECT_NEAR(stand.turning(), 1.0, 1e-3);
-      EXPECT_EQ(stand.motors().refused(), 0U);
+      EXPECT_EQ(stand.motors().status().refused, 0U);
     } else {
       EXPECT_EQ(stand.turning(), 0.0) << name_of(state);
-      EXPECT_EQ(stand.motors().refused(), 100U) << name_of(state);
+      EXPECT_EQ(stand.motors().status().refused, 100U) << name_of(state);
     }
   }
 }
