@@ -87,6 +87,7 @@ void Connection::hear(Time fcu, Time now) {
     status_.reset();
     status_at_.reset();
     version_.clear();
+    refusal_.clear();
     state_ = ConnectionState::kHeard;
     if (config_.download) parameters_.start_download(now);
   }

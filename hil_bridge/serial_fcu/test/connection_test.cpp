@@ -48,6 +48,17 @@ TEST(ConnectionTest, RefusesAUnitWithAnotherNumberOfParameters) {
       "version 2.0");
 }
 
+TEST(ConnectionTest, MeetsARefusedUnitThatHasBootedAsANewOne) {
+  Connection connection;
+  connection.begin(Time{});
+  connection.take(rosflight::SmallImu{.time_boot_us = 5'000'000}, milliseconds(1));
+  connection.take(rosflight::ParamValue{{1}, 251, 0, rosflight::field_of<16>("A"), 6}, milliseconds(2));
+  ASSERT_EQ(connection.state(), ConnectionState::kRefused);
+  connection.take(rosflight::SmallImu{.time_boot_us = 1000}, milliseconds(3));
+  EXPECT_EQ(connection.state(), ConnectionState::kHeard) << "it may have another firmware now";
+  EXPECT_EQ(connection.refusal(), "");
+}
+
 TEST(ConnectionTest, ForgivesReportsThatWereLostOnTheWay) {
   Connection connection;
   connection.begin(Time{});
