@@ -15,6 +15,8 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr std::string_view kWaypoint = "waypoint_";
+/// Its text says why: a check names the kind.
+constexpr std::string_view kInterlock = "interlock";
 /// A return to launch is a route of two waypoints of its own.
 constexpr std::size_t kReturnWaypoints = 2;
 
@@ -133,7 +135,8 @@ bool EventNames::is_waypoint(std::string_view name) const {
 
 bool EventNames::known(const std::string& name, Waiting waiting) const {
   const auto is_name = [&](std::string_view one) { return one == name; };
-  if (waiting == Waiting::kCheck && std::ranges::any_of(kPositionEvents, is_name)) return true;
+  const bool is_kind = std::ranges::any_of(kPositionEvents, is_name) || name == kInterlock;
+  if (waiting == Waiting::kCheck && is_kind) return true;
   if (name.starts_with("fcu:") || name.starts_with("refused:") || is_waypoint(name)) return true;
   return std::any_of(names_.begin(), names_.end(), [&](const Name& n) {
     return name == n.text || (waiting == Waiting::kCheck && name == n.kind) || name == n.kind + ":" + n.text;
@@ -142,7 +145,10 @@ bool EventNames::known(const std::string& name, Waiting waiting) const {
 
 std::vector<std::string> EventNames::spoken(Waiting waiting) const {
   std::vector<std::string> all;
-  if (waiting == Waiting::kCheck) all.assign(kPositionEvents.begin(), kPositionEvents.end());
+  if (waiting == Waiting::kCheck) {
+    all.assign(kPositionEvents.begin(), kPositionEvents.end());
+    all.emplace_back(kInterlock);
+  }
   for (const Name& name : names_) {
     // What begins and what ends a fault have one text: with its kind the end is told from the beginning.
     all.push_back(name.kind == "fault_end" ? name.kind + ":" + name.text : name.text);

@@ -45,6 +45,11 @@ TEST(EventNamesTest, KnowsTheEventsOfThePosition) {
   }
 }
 
+TEST(EventNamesTest, LetsAKillBeCheckedByItsKind) {
+  EXPECT_EQ(EventNames(mission(3)).complaint("interlock", Waiting::kCheck), "");
+  EXPECT_NE(of_deed(mission(3), "interlock"), "") << "its text says why";
+}
+
 TEST(EventNamesTest, CountsTheWaypointsThatThereCanBe) {
   Scenario scenario = mission(3);
   EXPECT_EQ(of_deed(scenario, "waypoint_3"), "");
