@@ -172,7 +172,8 @@ LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides&
   apply_overrides(root, overrides);
   note_places(root, "", loaded);
   if (!folder.place.empty()) loaded.places.insert_or_assign("vehicle", folder.place);
-  loaded.effective_config = "vehicle_folder = \"" + folder.name + "\"\n" + print_toml(root);
+  loaded.effective_config =
+      print_toml(toml::table{{"vehicle_folder", folder.name}}) + "\n" + print_toml(root);
   loaded.digest = digest(loaded.effective_config);
   loaded.scenario.vehicle_folder = folder.name;
   loaded.field_folders = folders_for(file, root.get("field"));
