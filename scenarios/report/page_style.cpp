@@ -38,7 +38,7 @@ h2 { font-size: 18px; margin: 40px 0 10px; letter-spacing: -0.005em; }
 .tile b { display: block; font-size: 24px; line-height: 1.2; font-variant-numeric: tabular-nums; } .tile i { font-style: normal; font-weight: 500; font-size: 14px; color: var(--soft); margin-left: 5px; }
 .tile span { color: var(--soft); font-size: 13px; }
 .scroll { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; font-size: 14px; } table.narrow { width: auto; min-width: 420px; }
+table { border-collapse: collapse; width: 100%; font-size: 14px; } table.short { width: auto; min-width: 420px; }
 th, td { text-align: left; padding: 6px 14px 6px 0; border-bottom: 1px solid var(--hair); vertical-align: top; }
 thead th { color: var(--soft); font-weight: 500; } tbody th { font-weight: 600; }
 .number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }

@@ -177,7 +177,7 @@ std::string events_table(const ReportRun& run, bool labelled) {
   }
   if (rows.empty()) return "";
   return titled_section("Events", run, labelled) +
-         "<div class=\"scroll\"><table class=\"narrow\"><thead><tr><th "
+         "<div class=\"scroll\"><table class=\"short\"><thead><tr><th "
          "class=\"number\">at</th><th>kind</th><th>what</th></tr></thead><tbody>" +
          rows + "</tbody></table></div></section>";
 }

@@ -173,6 +173,18 @@ TEST_F(ReportTest, DrawsWideFiguresOnceMoreForANarrowPage) {
   }
 }
 
+// On a wide page what is of class narrow is not shown.
+TEST_F(ReportTest, HidesOnlyDrawingsOnAWidePage) {
+  const std::string page = report_html(one());
+  constexpr std::string_view kHidden = "class=\"narrow";
+  int hidden = 0;
+  for (std::size_t at = page.find(kHidden); at != std::string::npos; at = page.find(kHidden, at + 1)) {
+    ++hidden;
+    EXPECT_EQ(page.substr(page.find('>', at) + 1, 4), "<svg") << page.substr(at, 100);
+  }
+  EXPECT_GT(hidden, 0);
+}
+
 TEST_F(ReportTest, WarnsAlthoughTheRunPasses) {
   std::vector<ReportRun> runs = one();
   Verdict verdict = verdict_with(Outcome::kPass);
