@@ -5,14 +5,12 @@
 
 namespace ironbird::hil_bridge {
 
-namespace {
-
-bool is_mapped(const ParameterClient& parameters, std::string_view name) {
-  const auto record = parameters.find(name);
-  return record && std::bit_cast<std::int32_t>(record->bits) >= kFirstSwitchChannel;
+bool override_mapped(const ParameterClient& parameters) {
+  return override_mapped([&](std::string_view name) {
+    const auto record = parameters.find(name);
+    return record ? std::bit_cast<std::int32_t>(record->bits) : -1;
+  });
 }
-
-}  // namespace
 
 void report_presence(const Connection& connection, Time now, InterlockInputs& in) {
   in.link_alive = connection.heartbeat_alive(now);
@@ -54,8 +52,7 @@ void LineUnitWatch::compare() {
   const ParameterClient& parameters = fcu_.connection().parameters();
   equal_ = std::all_of(wanted_.begin(), wanted_.end(),
                        [&](const ParameterRecord& wanted) { return parameters.find(wanted.name) == wanted; });
-  override_mapped_ = std::all_of(kOverrideSwitches.begin(), kOverrideSwitches.end(),
-                                 [&](std::string_view name) { return is_mapped(parameters, name); });
+  override_mapped_ = override_mapped(parameters);
   news_ = false;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,20 @@ namespace ironbird::hil_bridge {
 /// The switches with which the pilot takes attitude and throttle back, by the parameter that has the channel.
 inline constexpr std::array<std::string_view, 2> kOverrideSwitches = {"RC_ATT_OVRD_CHN", "RC_THR_OVRD_CHN"};
 inline constexpr int kFirstSwitchChannel = 4;  ///< 0 to 3 are the sticks
+inline constexpr int kLastSwitchChannel = 23;  ///< of a frame of the radio
+
+/// Has the pilot what it takes to take over? A switch that lies beyond RC_NUM_CHN is one that the firmware
+/// does not hear. @param parameter  gives an integer parameter of the unit by its name, -1 when it is not
+/// known
+template <class Parameter>
+bool override_mapped(Parameter&& parameter) {
+  return std::all_of(kOverrideSwitches.begin(), kOverrideSwitches.end(), [&](std::string_view name) {
+    const int channel = parameter(name);
+    return channel >= kFirstSwitchChannel && channel <= kLastSwitchChannel &&
+           channel < parameter("RC_NUM_CHN");
+  });
+}
+bool override_mapped(const ParameterClient& parameters);
 
 /// Finds out, of a unit, what the interlock wants to know of it.
 class UnitWatch {

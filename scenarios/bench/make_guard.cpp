@@ -70,10 +70,7 @@ int unit_parameter(const Scenario& scenario, std::string_view name) {
 }
 
 bool has_override_switches(const Scenario& scenario) {
-  const auto& names = hil_bridge::kOverrideSwitches;
-  return std::all_of(names.begin(), names.end(), [&](std::string_view name) {
-    return unit_parameter(scenario, name) >= hil_bridge::kFirstSwitchChannel;
-  });
+  return hil_bridge::override_mapped([&](std::string_view name) { return unit_parameter(scenario, name); });
 }
 
 hil_bridge::InterlockConfig interlock_config(const Scenario& scenario) {

@@ -36,6 +36,7 @@ constexpr int kGreatestTimeout = 150;         // ms
 constexpr std::uint64_t kLeastExchanges = 3;  // that are believed; slow ones are not
 constexpr Time kGreatestRoundTrip = std::chrono::milliseconds(20);
 constexpr double kGreatestLoss = 0.01;
+constexpr double kUnitLengthTolerance = 0.01;
 constexpr std::size_t kDifferencesShown = 3;
 
 /// The interlock's own words for one of its inputs.
@@ -56,15 +57,6 @@ int whole(const Monitored& unit, std::string_view name, int otherwise) {
 double real(const Monitored& unit, std::string_view name) {
   const auto record = unit.fcu.connection().parameters().find(name);
   return record ? static_cast<double>(std::bit_cast<float>(record->bits)) : std::nan("");
-}
-
-bool override_mapped(const Monitored& unit) {
-  const int channels = whole(unit, "RC_NUM_CHN", 0);
-  const auto& switches = hil_bridge::kOverrideSwitches;
-  return std::all_of(switches.begin(), switches.end(), [&](std::string_view name) {
-    const int channel = whole(unit, name, -1);
-    return channel >= hil_bridge::kFirstSwitchChannel && channel < channels;
-  });
 }
 
 /// Of the wanted ones those that the unit has otherwise.
@@ -119,8 +111,13 @@ void look_at_identity(const Monitored& unit, const InterlockInputs& in, const Pr
   const std::string who = (version.empty() ? std::string("version not told") : version) + ", dialect " +
                           std::to_string(dialect) + ", " +
                           std::to_string(unit.fcu.connection().parameters().progress().known) + " parameters";
-  list.add("version", in.unit_known && dialect == kDialectVersion, who,
-           who + "; a unit tells its version only while it is disarmed, and must be of ROSflight 2.0");
+  const bool mixes_wrongly = version == "v2.0.0" || version == "2.0.0";
+  list.add(
+      "version", in.unit_known && dialect == kDialectVersion && !mixes_wrongly, who,
+      who + (mixes_wrongly ? "; this one mixes the companion's commands by the mixer that is not selected: "
+                             "flash 2.0.1 or later"
+                           : "; a unit tells its version only while it is disarmed, and must be of "
+                             "ROSflight 2.0"));
   if (!wishes.parameters) {
     list.items.push_back({"parameters", Light::kUnlit, "not compared: no scenario was named"});
     return;
@@ -180,7 +177,7 @@ void look_at_slow_sensors(const Monitored& unit, List& list) {
 
 void look_at_radio(const Monitored& unit, const InterlockInputs& in, List& list) {
   const std::string frames = std::to_string(rate_of<RcChannels>(unit)) + " frames/s";
-  const bool mapped = override_mapped(unit);
+  const bool mapped = hil_bridge::override_mapped(unit.fcu.connection().parameters());
   list.add(
       "radio", in.radio_present, frames + ", the override switches have channels",
       frames + (mapped ? "; switch the transmitter on"
@@ -191,7 +188,8 @@ void look_at_radio(const Monitored& unit, const InterlockInputs& in, List& list)
   const double stick =
       known ? 1e-3 * (rc->chan_raw[static_cast<std::size_t>(channel)] - 1000.0) : std::nan("");
   const double limit = real(unit, "RC_ARM_THRESHOLD");
-  list.add("throttle", in.radio_present && stick < limit, printed("the stick is at %.0f %%", 100.0 * stick),
+  list.add("throttle", rate_of<RcChannels>(unit) > 0 && stick < limit,
+           printed("the stick is at %.0f %%", 100.0 * stick),
            known ? printed("the stick is at %.0f %%, must be below %.0f %%: pull it down", 100.0 * stick,
                            100.0 * limit)
                  : std::string("its stick is not heard"));
@@ -205,6 +203,18 @@ void look_at_state(const Monitored& unit, const InterlockInputs& in, List& list)
            status == nullptr
                ? std::string("nothing is known of them")
                : error_names(status->error_code) + (status->failsafe != 0 ? ", and the failsafe flag" : ""));
+}
+
+/// A unit whose filter has failed goes on without an error bit: only a reboot, or an IMU calibration, helps.
+void look_at_attitude(const Monitored& unit, List& list) {
+  const auto* told = unit.view.latest<AttitudeQuaternion>();
+  const double norm = told == nullptr
+                          ? std::nan("")
+                          : std::hypot(std::hypot(told->q1, told->q2), std::hypot(told->q3, told->q4));
+  const std::string text =
+      told == nullptr ? std::string("not heard") : printed("a quaternion of length %.3f", norm);
+  list.add("attitude", std::abs(norm - 1.0) < kUnitLengthTolerance, text,
+           text + "; must be 1: reboot the unit, or calibrate its IMU, level and still");
 }
 
 void look_at_power(const Monitored& unit, List& list) {
@@ -236,7 +246,7 @@ InterlockInputs interlock_inputs(const Monitored& unit, const PreflightWishes& w
   in.link_alive = in.link_alive && unit.line_up;
   in.unit_known = connection.state() == hil_bridge::ConnectionState::kReady;
   in.parameters_equal = connection.parameters().progress().complete && different(unit, wishes).empty();
-  in.radio_present = in.radio_present && override_mapped(unit);
+  in.radio_present = in.radio_present && hil_bridge::override_mapped(unit.fcu.connection().parameters());
   return in;
 }
 
@@ -246,6 +256,7 @@ std::vector<PreflightItem> preflight(const Monitored& unit, const PreflightWishe
   look_at_link(unit, in, list);
   look_at_identity(unit, in, wishes, list);
   look_at_inertial(unit, in, wishes, list);
+  look_at_attitude(unit, list);
   look_at_slow_sensors(unit, list);
   look_at_radio(unit, in, list);
   look_at_state(unit, in, list);

@@ -140,6 +140,21 @@ TEST_F(LineUnitWatchTest, MissesARadioWithoutAnOverrideSwitch) {
   EXPECT_FALSE(report().radio_present);
 }
 
+// The firmware listens to channels below RC_NUM_CHN only.
+TEST_F(LineUnitWatchTest, MissesAnOverrideSwitchThatTheFirmwareDoesNotHear) {
+  tick(1200);
+  ASSERT_TRUE(report().radio_present);
+  link.unit().send(test::setting("RC_THR_OVRD_CHN", 8));
+  tick(4);
+  EXPECT_FALSE(report().radio_present) << "of eight the last is 7";
+  link.unit().send(test::setting("RC_THR_OVRD_CHN", 7));
+  tick(4);
+  EXPECT_TRUE(report().radio_present);
+  link.unit().send(test::setting("RC_NUM_CHN", 7));
+  tick(4);
+  EXPECT_FALSE(report().radio_present);
+}
+
 TEST_F(LineUnitWatchTest, SeesAFailsafeAndAnErrorBit) {
   tick(1200);
   link.unit().host().pilot().lose();

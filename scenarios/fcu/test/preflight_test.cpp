@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -24,6 +25,7 @@ struct Unit {
   Heartbeat heartbeat{.mavlink_version = kDialectVersion};
   RosflightStatus status;
   SmallImu imu{.zacc = -9.80665F};
+  AttitudeQuaternion attitude{.q1 = 1.0F};
   RosflightGnss fix{.fix_type = 3, .num_sat = 12};
   RosflightBatteryStatus battery{.battery_voltage = 24.0F};
   RcChannels rc;
@@ -100,6 +102,7 @@ class Desk {
     answer();
     unit_.imu.time_boot_us = static_cast<std::uint64_t>(k) * 2500;
     say_every(unit_.imu_period, k, unit_.imu);
+    say_every(unit_.imu_period, k, unit_.attitude);
     say_every(unit_.mag_period, k, SmallMag{0.2F, 0.0F, 0.4F});
     say_every(unit_.baro_period, k, SmallBaro{1387.0F, 85'700.0F, 290.0F});
     say_every(unit_.gnss_period, k, unit_.fix);
@@ -196,8 +199,16 @@ INSTANTIATE_TEST_SUITE_P(
              "switch the transmitter on"},
         Flaw{"NoOverride",
              [](Unit& unit) { unit.parameters["RC_ATT_OVRD_CHN"] = -1; },
-             {"radio", "throttle"},
+             {"radio"},
              "map RC_ATT_OVRD_CHN"},
+        Flaw{"FilterThatFailed",
+             [](Unit& unit) { unit.attitude.q3 = std::numeric_limits<float>::quiet_NaN(); },
+             {"attitude"},
+             "reboot the unit, or calibrate its IMU"},
+        Flaw{"FirstOfItsVersion",
+             [](Unit& unit) { unit.version = "v2.0.0"; },
+             {"version"},
+             "flash 2.0.1 or later"},
         Flaw{"Armed",
              [](Unit& unit) { unit.status.armed = 1; },
              {"version", "disarmed"},
