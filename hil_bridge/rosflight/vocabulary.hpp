@@ -90,4 +90,15 @@ constexpr std::array<char, N> field_of(std::string_view text) {
   return field;
 }
 
+/// What a unit says ends up on terminals and in files: bytes that are no printable ASCII become question
+/// marks.
+template <std::size_t N>
+constexpr void make_printable(std::array<char, N>& field) {
+  constexpr char kFirst = ' ';
+  constexpr char kLast = '~';
+  const auto end = std::find(field.begin(), field.end(), '\0');
+  std::replace_if(
+      field.begin(), end, [](char c) { return c < kFirst || c > kLast; }, '?');
+}
+
 }  // namespace ironbird::hil_bridge::rosflight

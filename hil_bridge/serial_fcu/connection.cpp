@@ -24,6 +24,15 @@ bool answers_us(const rosflight::Timesync& message, Time now) {
          Time{message.ts1} <= now;
 }
 
+/// The firmware's version is what `git describe` says: v2.0.1, v2.0.1-4-g12ab34c, or a commit alone, which
+/// tells nothing.
+bool is_second_version(std::string_view text) {
+  if (text.starts_with('v')) text.remove_prefix(1);
+  const std::size_t digits = text.find_first_not_of("0123456789");
+  const bool has_major = digits != 0 && digits != std::string_view::npos && text[digits] == '.';
+  return !has_major || text.substr(0, digits) == "2";
+}
+
 }  // namespace
 
 std::string_view name_of(ConnectionState state) {
@@ -70,8 +79,9 @@ void Connection::take(const rosflight::Message& message, Time now, std::uint64_t
   } else if (const auto* version = std::get_if<rosflight::RosflightVersion>(&message)) {
     // One that says nothing does not take back what was said.
     if (const auto text = rosflight::text_of(version->version); !text.empty()) version_ = text;
-  } else if (std::holds_alternative<rosflight::Heartbeat>(message)) {
+  } else if (const auto* heartbeat = std::get_if<rosflight::Heartbeat>(&message)) {
     heartbeat_ = now;
+    dialect_ = heartbeat->mavlink_version;
     lost_at_heartbeat_ = lost;
   } else if (std::holds_alternative<rosflight::RcChannels>(message)) {
     radio_ = now;
@@ -86,6 +96,7 @@ void Connection::hear(Time fcu, Time now) {
     time_sync_.reset();
     status_.reset();
     status_at_.reset();
+    dialect_.reset();
     version_.clear();
     refusal_.clear();
     state_ = ConnectionState::kHeard;
@@ -94,13 +105,26 @@ void Connection::hear(Time fcu, Time now) {
   fcu_clock_ = std::max(fcu_clock_, fcu);
 }
 
+std::string Connection::what_is_other() const {
+  const int count = parameters_.progress().count;
+  if (count != 0 && count != rosflight::kParameterCount) {
+    return "the unit has " + std::to_string(count) + " parameters, ROSflight 2.0 has " +
+           std::to_string(rosflight::kParameterCount);
+  }
+  // Later a heartbeat of another kind is one that was broken on the way and has the right sum by chance.
+  if (state_ != ConnectionState::kReady && dialect_ && *dialect_ != rosflight::kDialectVersion) {
+    return "the unit speaks version " + std::to_string(*dialect_) +
+           " of MAVLink's dialects, ROSflight 2.0 has " + std::to_string(rosflight::kDialectVersion);
+  }
+  if (!is_second_version(version_)) return "the unit is of another version than ROSflight 2.0";
+  return "";
+}
+
 void Connection::judge() {
   const ParameterProgress& progress = parameters_.progress();
-  if (progress.count != 0 && progress.count != rosflight::kParameterCount) {
+  if (const std::string other = what_is_other(); !other.empty()) {
     state_ = ConnectionState::kRefused;
-    refusal_ = "the unit has " + std::to_string(progress.count) + " parameters, ROSflight 2.0 has " +
-               std::to_string(rosflight::kParameterCount) +
-               (version_.empty() ? "" : "; it calls itself " + version_) +
+    refusal_ = other + (version_.empty() ? "" : "; it calls itself " + version_) +
                "; flash a firmware of version 2.0";
     return;
   }

@@ -96,11 +96,14 @@ class Connection {
   /// Notes the unit's clock. One that starts anew is a unit that has booted.
   void hear(Time fcu, Time now);
   /// Finds the state that what is known adds up to.
+  /// In which way this is no ROSflight 2.0 unit; empty: in none that is known.
+  std::string what_is_other() const;
   void judge();
 
   ConnectionConfig config_;
   ConnectionState state_ = ConnectionState::kSilent;
   std::string refusal_;
+  std::optional<int> dialect_;
   std::string version_;
   ParameterClient parameters_;
   TimeSync time_sync_;

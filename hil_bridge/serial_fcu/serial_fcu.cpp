@@ -17,6 +17,17 @@ bool writes_to_flash(const rosflight::Message& message) {
   return order != nullptr && order->command == rosflight::kWriteParameters;
 }
 
+rosflight::Message with_printable_texts(rosflight::Message message) {
+  if (auto* version = std::get_if<rosflight::RosflightVersion>(&message)) {
+    rosflight::make_printable(version->version);
+  } else if (auto* text = std::get_if<rosflight::Statustext>(&message)) {
+    rosflight::make_printable(text->text);
+  } else if (auto* value = std::get_if<rosflight::ParamValue>(&message)) {
+    rosflight::make_printable(value->param_id);
+  }
+  return message;
+}
+
 }  // namespace
 
 SerialFcu::SerialFcu(transport::ByteStream& line, const ConnectionConfig& config, Gate* gate)
@@ -28,7 +39,7 @@ SerialFcu::SerialFcu(transport::ByteStream& line, const ConnectionConfig& config
 void SerialFcu::advance(Time now) {
   now_ = now;
   watch_line(now);
-  std::array<std::uint8_t, 4096> bytes{};
+  std::array<std::uint8_t, transport::kReadRoom> bytes;
   while (const std::size_t count = line_.read(bytes)) {
     decoder_.push(std::span(bytes).first(count), [&](const rosflight::Frame& frame) { take(frame, now); });
   }
@@ -55,12 +66,13 @@ void SerialFcu::watch_line(Time now) {
 
 void SerialFcu::take(const rosflight::Frame& frame, Time now) {
   statistics_.take(frame, now);
-  connection_.take(frame.message, now, statistics_.lost());
+  const rosflight::Message message = with_printable_texts(frame.message);
+  connection_.take(message, now, statistics_.lost());
   if (inbox_.size() == kInboxRoom) {
     ++overrun_;
     return;
   }
-  inbox_.push_back({now, in_bench_time(frame.message, now)});
+  inbox_.push_back({now, in_bench_time(message, now)});
 }
 
 rosflight::Message SerialFcu::in_bench_time(const rosflight::Message& message, Time now) {

@@ -15,6 +15,9 @@ class LinkError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Room with which a read loses nothing of a datagram.
+inline constexpr std::size_t kReadRoom = 65536;
+
 /// A line for bytes in both directions, which may be cut at any time and come back.
 ///
 /// Nothing here waits: the caller decides when to look again. Whoever waits for several lines does so with

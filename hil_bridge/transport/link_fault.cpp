@@ -15,7 +15,7 @@ LinkFault::LinkFault(ByteStream& line, const LinkFaultConfig& config, std::uint6
 
 void LinkFault::advance(nanoseconds now) {
   now_ = now;
-  std::array<std::uint8_t, 4096> bytes{};
+  std::array<std::uint8_t, kReadRoom> bytes;
   // What comes while the line is cut is gone.
   while (const std::size_t count = line_.read(bytes)) {
     if (up_) take(std::span(bytes).first(count));

@@ -30,7 +30,7 @@ struct UdpConfig {
 std::optional<UdpConfig> udp_peer(std::string_view text);
 
 /// A line of datagrams, IPv4. Each write is one datagram; a read takes one, and what of it does not fit is
-/// lost, so read with room for 64 KiB. It is up as long as this side has its port, whether or not somebody
+/// lost, so read with `kReadRoom`. It is up as long as this side has its port, whether or not somebody
 /// listens.
 class UdpSocket final : public ByteStream {
  public:

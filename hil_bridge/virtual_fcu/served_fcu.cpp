@@ -20,7 +20,7 @@ ServedFcu::ServedFcu(Fcu& unit, transport::ByteStream& line, std::uint8_t system
 }
 
 void ServedFcu::take() {
-  std::array<std::uint8_t, 4096> bytes{};
+  std::array<std::uint8_t, transport::kReadRoom> bytes;
   while (const std::size_t count = line_.read(bytes)) {
     bytes_taken_ += count;
     for (const std::uint8_t byte : std::span(bytes).first(count)) {

@@ -48,6 +48,30 @@ TEST(ConnectionTest, RefusesAUnitWithAnotherNumberOfParameters) {
       "version 2.0");
 }
 
+TEST(ConnectionTest, RefusesAnotherDialectAndAnotherVersion) {
+  Connection connection;
+  connection.begin(Time{});
+  connection.take(rosflight::Heartbeat{.mavlink_version = 3}, milliseconds(1));
+  EXPECT_EQ(connection.state(), ConnectionState::kRefused);
+  EXPECT_EQ(connection.refusal(),
+            "the unit speaks version 3 of MAVLink's dialects, ROSflight 2.0 has 2; flash a firmware of "
+            "version 2.0");
+  for (const char* text : {"v1.3", "v1.3.1-4-gabc", "3.0.0", "v20.1"}) {
+    Connection other;
+    other.begin(Time{});
+    other.take(version(text), milliseconds(1));
+    EXPECT_EQ(other.refusal(),
+              std::string("the unit is of another version than ROSflight 2.0; it calls itself ") + text +
+                  "; flash a firmware of version 2.0");
+  }
+  for (const char* text : {"v2.0.1", "2.0.1", "v2.1.0-rc1", "e8cf6a0f", "1234567"}) {
+    Connection ours;
+    ours.begin(Time{});
+    ours.take(version(text), milliseconds(1));
+    EXPECT_EQ(ours.state(), ConnectionState::kHeard) << text;
+  }
+}
+
 TEST(ConnectionTest, MeetsARefusedUnitThatHasBootedAsANewOne) {
   Connection connection;
   connection.begin(Time{});
