@@ -89,6 +89,7 @@ class EventRules {
     for (std::size_t i = 0; i < scenario_.events.size(); ++i) {
       const std::string path = "event[" + std::to_string(i) + "]";
       check_moment(path + ".after", scenario_.events[i].after);
+      check_name(path, i);
       if (check_deed(path)) check_details(path, scenario_.events[i]);
     }
     for (std::size_t i = 0; i < scenario_.snapshots.size(); ++i)
@@ -98,6 +99,16 @@ class EventRules {
   }
 
  private:
+  /// What waits for it would not know for which.
+  void check_name(const std::string& path, std::size_t index) {
+    const std::string& name = scenario_.events[index].name;
+    for (std::size_t i = 0; i < index; ++i) {
+      if (name.empty() || scenario_.events[i].name != name) continue;
+      findings_.push_back(path + ".name = \"" + name + "\": event[" + std::to_string(i) +
+                          "] has this name too; must be another");
+    }
+  }
+
   void check_moment(const std::string& path, const std::string& event) {
     if (event.empty()) return;
     const std::string wrong = names_.complaint(event, EventNames::Waiting::kDeed);

@@ -163,6 +163,10 @@ LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides&
   LoadedScenario loaded;
   loaded.file = file;
   loaded.name = file.stem().string();
+  if (loaded.name == "." || loaded.name == "..") {
+    throw ConfigError(file.string() + ": a run's folder has its scenario's name, and " + loaded.name +
+                      " is none; rename the file");
+  }
   toml::table scenario = load_toml(file);
   const VehicleFolder folder = vehicle_folder(file, scenario, overrides);
   toml::table root = load_vehicle(folder, loaded.vehicle_path);

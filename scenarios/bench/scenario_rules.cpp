@@ -43,6 +43,7 @@ class Rules {
     check_start();
     check_waypoints();
     report_all(tick_findings(loaded_));
+    report_all(whole_tick_findings(loaded_));
     report_all(hil_findings(loaded_));
     check_cameras();
     check_snapshots();
@@ -145,7 +146,15 @@ class Rules {
 
   void check_cameras() {
     std::vector<std::string> names = {"chase", "top"};
-    for (const CameraConfig& camera : loaded_.scenario.cameras) names.push_back(camera.name);
+    for (std::size_t i = 0; i < loaded_.scenario.cameras.size(); ++i) {
+      const CameraConfig& camera = loaded_.scenario.cameras[i];
+      const std::string path = "camera[" + std::to_string(i) + "]";
+      if (std::find(names.begin(), names.end(), camera.name) != names.end())
+        report(path + ".name = \"" + camera.name + "\": is taken by another camera");
+      if (camera.target_N == camera.p_N)
+        report(path + ".target_N: must differ from p_N, or it looks nowhere");
+      names.push_back(camera.name);
+    }
     const auto check = [&](const std::string& path, const std::string& name) {
       if (std::find(names.begin(), names.end(), name) == names.end()) {
         const std::string nearest = nearest_name(name, names);

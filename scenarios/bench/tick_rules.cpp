@@ -17,6 +17,7 @@ namespace {
 
 constexpr const char* kTick = "fcu.tick";
 constexpr std::int64_t kMicrosecond = 1000;  // ns; the firmware's clock counts them
+constexpr double kRounding = 1e-9;           // of a period in seconds
 /// What has to last a whole number of ticks.
 struct Span {
   std::string path;
@@ -70,6 +71,23 @@ std::optional<std::int64_t> fitting_tick(const std::vector<Span>& spans, std::in
   return best;
 }
 
+/// What is written down, or delayed, in the ticks of a run.
+std::vector<Span> in_ticks(const Scenario& scenario) {
+  std::vector<Span> spans{{"record.state_period", 1e9 * scenario.record.state_period, kRounding},
+                          {"record.signal_period", 1e9 * scenario.record.signal_period, kRounding}};
+  if (!scenario.fcu.has_own_unit()) return spans;
+  spans.push_back({"fcu.uplink_latency", static_cast<double>(scenario.fcu.uplink_latency.count())});
+  spans.push_back({"fcu.downlink_latency", static_cast<double>(scenario.fcu.downlink_latency.count())});
+  return spans;
+}
+
+/// The nearest lengths that a span may have, as a user writes them.
+std::string whole_lengths(const Span& span, std::int64_t tick) {
+  const auto below = static_cast<std::int64_t>(span.length) / tick * tick;
+  const std::string above = in_milliseconds(std::chrono::nanoseconds(below + tick));
+  return below > 0 ? in_milliseconds(std::chrono::nanoseconds(below)) + " or " + above : above;
+}
+
 }  // namespace
 
 std::string in_milliseconds(std::chrono::nanoseconds time) {
@@ -83,6 +101,20 @@ bool tick_is_to_blame(const LoadedScenario& loaded, const std::string& path) {
     return place == loaded.places.end() || place->second.starts_with(vehicle);
   };
   return !is_vehicles(kTick) && is_vehicles(path);
+}
+
+std::vector<std::string> whole_tick_findings(const LoadedScenario& loaded) {
+  const std::int64_t tick = loaded.scenario.fcu.tick.count();
+  std::vector<std::string> findings;
+  if (tick <= 0) return findings;
+  for (const Span& span : in_ticks(loaded.scenario)) {
+    const bool others_fault = !loaded.gives(span.path) || tick_is_to_blame(loaded, span.path);
+    if (others_fault || is_whole(span, tick)) continue;
+    findings.push_back(span.path + " = " + in_milliseconds(rounded(span.length)) +
+                       ": must be a whole number of ticks of " + in_milliseconds(loaded.scenario.fcu.tick) +
+                       "; take " + whole_lengths(span, tick));
+  }
+  return findings;
 }
 
 std::vector<std::string> tick_findings(const LoadedScenario& loaded) {

@@ -20,4 +20,7 @@ bool tick_is_to_blame(const LoadedScenario& loaded, const std::string& path);
 /// that is not to blame is found when the objects of the run are made. @return without its place, or nothing
 std::vector<std::string> tick_findings(const LoadedScenario& loaded);
 
+/// Periods of the log and latencies that are not a whole number of ticks: each with the nearest that are.
+std::vector<std::string> whole_tick_findings(const LoadedScenario& loaded);
+
 }  // namespace ironbird::scenarios

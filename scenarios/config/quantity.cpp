@@ -23,6 +23,7 @@ struct NamedUnit {
 };
 
 constexpr double kPi = std::numbers::pi;
+constexpr int kGreatestPower = 100;  // doubled
 
 constexpr std::array<NamedUnit, 33> kUnits{{
     {"1", false, {0, 0, 0, 0, 0, 0}, 1, 1},
@@ -113,7 +114,8 @@ Unit raised(const Unit& unit, int twice) {
   Unit result;
   for (std::size_t i = 0; i < Unit::kBaseCount; ++i) {
     const int product = unit.twice_power[i] * twice;
-    if (product % 2 != 0 || std::abs(product / 2) > 100) throw QuantityError("a power that no unit has");
+    if (product % 2 != 0 || std::abs(product / 2) > kGreatestPower)
+      throw QuantityError("a power that no unit has");
     result.twice_power[i] = static_cast<std::int8_t>(product / 2);
   }
   const bool inverted = twice < 0;
@@ -128,7 +130,9 @@ Unit raised(const Unit& unit, int twice) {
 Unit product(const Unit& a, const Unit& b) {
   Unit result;
   for (std::size_t i = 0; i < Unit::kBaseCount; ++i) {
-    result.twice_power[i] = static_cast<std::int8_t>(a.twice_power[i] + b.twice_power[i]);
+    const int sum = a.twice_power[i] + b.twice_power[i];
+    if (std::abs(sum) > kGreatestPower) throw QuantityError("a power that no unit has");
+    result.twice_power[i] = static_cast<std::int8_t>(sum);
   }
   result.numerator = a.numerator * b.numerator;
   result.denominator = a.denominator * b.denominator;

@@ -169,7 +169,11 @@ void TomlReader::read_bool(const toml::node& node, bool& value, const std::strin
 
 void TomlReader::read_text(const toml::node& node, std::string& value, const std::string& path) {
   if (!node.is_string()) return report(node, path, "must be a text in quotes");
-  value = node.as_string()->get();
+  const std::string& text = node.as_string()->get();
+  const auto controls = [](unsigned char c) { return c < ' ' || c == 0x7F; };
+  if (std::any_of(text.begin(), text.end(), controls))
+    return report(node, path, "has a control character; must be text of one line");
+  value = text;
 }
 
 void TomlReader::read_number(const toml::node& node, double& value, const Allowed& allowed,
