@@ -18,13 +18,13 @@ Lockstep::Lockstep(Fcu& fcu, autopilot::Autopilot& pilot, Guard& guard, Time per
   }
 }
 
-Time Lockstep::tick() {
+Time Lockstep::tick(bool in_time) {
   now_ += period_;
   if (now_ >= next_heartbeat_) {
     fcu_.send(rosflight::Heartbeat{.mavlink_version = rosflight::kDialectVersion});
     next_heartbeat_ += kHeartbeatPeriod;
   }
-  tick_.run(now_);
+  tick_.run(now_, in_time);
   return now_;
 }
 

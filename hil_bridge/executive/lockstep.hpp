@@ -13,8 +13,8 @@ class Lockstep {
   /// @param period  of a tick, > 0
   Lockstep(Fcu& fcu, autopilot::Autopilot& pilot, Guard& guard, Time period);
 
-  /// One tick. @return the time reached
-  Time tick();
+  /// One tick. @param in_time  whoever lets real time pass has not stood still. @return the time reached
+  Time tick(bool in_time = true);
 
   Time now() const { return now_; }
   const Telemetry& telemetry() const { return tick_.telemetry(); }

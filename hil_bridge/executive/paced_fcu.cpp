@@ -16,16 +16,20 @@ PacedFcu::PacedFcu(Fcu& fcu, double time_scale) : fcu_(fcu), time_scale_(time_sc
   throw std::invalid_argument("time_scale = " + std::to_string(time_scale) + ", must be between 0.001 and 1");
 }
 
-void PacedFcu::advance(Time now) {
+Time PacedFcu::wait(Time now) {
   const Time run(std::llround(static_cast<double>(now.count()) / time_scale_));
   if (zero_ == Time::min()) zero_ = machine_time() - run;
+  transport::sleep_until(zero_ + run);
+  // Who is stopped is mostly stopped while it sleeps.
   const Time behind = machine_time() - (zero_ + run);
-  if (behind > kGivenUp) {
-    zero_ += behind;
-    lost_ += behind;
-  } else if (behind < Time::zero()) {
-    transport::sleep_until(zero_ + run);
-  }
+  if (behind <= kGivenUp) return Time::zero();
+  zero_ += behind;
+  lost_ += behind;
+  return Time(std::llround(static_cast<double>(behind.count()) * time_scale_));
+}
+
+void PacedFcu::advance(Time now) {
+  wait(now);
   fcu_.advance(now);
 }
 

@@ -21,7 +21,9 @@ class PacedFcu final : public Fcu {
   /// @throws std::invalid_argument naming value and bound
   PacedFcu(Fcu& fcu, double time_scale);
 
-  /// Waits until it is time.
+  /// Waits until it is time. @return what was lost just now, because the loop came too late, of the run's
+  /// time
+  Time wait(Time now);
   void advance(Time now) override;
   void receive(std::vector<Arrival>& out) override { fcu_.receive(out); }
   void send(const rosflight::Message& message) override { fcu_.send(message); }

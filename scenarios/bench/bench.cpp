@@ -160,7 +160,8 @@ Verdict Bench::fly() {
 
 Bench::Time Bench::tick() {
   do_what_is_due(lockstep_->now());
-  const Time now = lockstep_->tick();
+  const bool in_time = !rig_ || rig_->wait_for(lockstep_->now() + scenario_.fcu.tick);
+  const Time now = lockstep_->tick(in_time);
   watch(now);
   watch_link(now);
   judge_->observe(now);

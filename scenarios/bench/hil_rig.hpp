@@ -33,6 +33,10 @@ class HilRig {
   virtual void open_stand(const hil_bridge::InterlockStatus& gate) = 0;
   /// Null: there is none, or it is not open yet.
   virtual hil_bridge::StandMotors* stand() = 0;
+  /// Waits until it is time for the tick that ends at `now`. @return false when the bench stood still for so
+  /// long that the unit is no longer its own: a stopped program that is continued must not go on as if
+  /// nothing were
+  virtual bool wait_for(hil_bridge::Time now) = 0;
   /// By how much the run fell behind a unit that does not wait.
   virtual hil_bridge::Time lost() const = 0;
 };

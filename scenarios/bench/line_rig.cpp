@@ -1,3 +1,4 @@
+#include <chrono>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,6 +24,8 @@ using hil_bridge::Time;
 using namespace hil_bridge::transport;
 
 constexpr std::string_view kUdp = "udp:";
+// Of the run's time. The unit's own time-out has long given the vehicle to the pilot.
+constexpr Time kLongestPause = std::chrono::milliseconds(500);
 
 std::unique_ptr<ByteStream> open_line(const FcuConfig& fcu) {
   if (fcu.line.starts_with(kUdp)) {
@@ -96,6 +99,7 @@ class LineRig final : public HilRig {
     if (stand_) stand_->open(gate);
   }
   hil_bridge::StandMotors* stand() override { return stand_ ? stand_->motors() : nullptr; }
+  bool wait_for(Time now) override { return paced_->wait(now) <= kLongestPause; }
   Time lost() const override { return paced_->lost(); }
 
  private:

@@ -87,6 +87,7 @@ class OwnUnitRig final : public HilRig {
   CanMotors* motors() override { return motors_ ? &*motors_ : nullptr; }
   void open_stand(const hil_bridge::InterlockStatus&) override {}
   hil_bridge::StandMotors* stand() override { return nullptr; }
+  bool wait_for(Time) override { return true; }
   Time lost() const override { return {}; }
 
  private:

@@ -55,6 +55,16 @@ TEST(PacedFcuTest, CatchesUpWithASmallDelayAndGivesUpAGreatOne) {
   EXPECT_GE(std::chrono::steady_clock::now() - start, milliseconds(40)) << "the clock begins anew";
 }
 
+TEST(PacedFcuTest, SaysWhatItHasLostInTheRunsTime) {
+  Idle idle;
+  PacedFcu fcu(idle, 0.5);
+  EXPECT_EQ(fcu.wait(Time{}), Time::zero());
+  EXPECT_EQ(fcu.wait(milliseconds(5)), Time::zero());
+  std::this_thread::sleep_for(PacedFcu::kGivenUp + milliseconds(100));
+  EXPECT_GE(fcu.wait(milliseconds(10)), PacedFcu::kGivenUp / 2);
+  EXPECT_EQ(fcu.wait(milliseconds(10)), Time::zero()) << "once";
+}
+
 TEST(PacedFcuTest, RefusesToRunFasterThanTheClock) {
   Idle idle;
   EXPECT_THROW(PacedFcu(idle, 1.5), std::invalid_argument);

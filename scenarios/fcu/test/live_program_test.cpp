@@ -178,6 +178,25 @@ TEST_F(LiveProgramTest, IsEndedByItsWatchdogWhenItIsStopped) {
   EXPECT_EQ(run.wait(), -1) << "ended by a signal, not continued";
 }
 
+// Here no watchdog stands by: the simulation keeps the time.
+TEST_F(LiveProgramTest, KillsAHilRunThatWasStoppedAndContinued) {
+  const Process unit = serve("10", {"--on-desk"});
+  await_unit();
+  Process run(Words{"run", kMission, "--set", "fcu.kind=hil", "--set", "fcu.line=" + link_, "--set",
+                    "duration=20 s", "--release", "--no-report", "--out", (folder_ / "out").string()},
+              folder_ / "run.txt");
+  std::this_thread::sleep_for(std::chrono::seconds(13));
+  run.send(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  run.send(SIGCONT);
+  EXPECT_EQ(run.wait(), 5) << run.text();
+  std::string events;
+  const nlohmann::json json = verdict();
+  for (const auto& event : json["events"]) events += event["text"].get<std::string>() + "\n";
+  EXPECT_THAT(events, HasSubstr("armed\n")) << run.text();
+  EXPECT_THAT(events, HasSubstr("killed: the control loop misses its period"));
+}
+
 /// Flies the paper's mission from take-off to landing and looks at how that went.
 class LiveFlightTest : public LiveProgramTest {
  protected:
