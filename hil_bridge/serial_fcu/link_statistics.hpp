@@ -19,6 +19,7 @@ struct LinkHealth {
   std::uint64_t corrupted = 0;
   std::uint64_t foreign = 0;
   std::uint64_t unsent = 0;
+  std::uint64_t unfetched = 0;
   Time age{};
   Time round_trip{};
 
@@ -31,6 +32,7 @@ struct LinkHealth {
     visit("corrupted", self.corrupted, "1", "frames whose checksum was wrong");
     visit("foreign", self.foreign, "1", "start bytes that were not of the dialect");
     visit("unsent", self.unsent, "1", "frames dropped here, because the line took no more");
+    visit("unfetched", self.unfetched, "1", "messages dropped here, because nobody took them");
     visit("age", self.age, "ns", "since the last frame");
     visit("round_trip", self.round_trip, "ns", "of the latest time exchange");
   }

@@ -69,7 +69,7 @@ void SerialFcu::take(const rosflight::Frame& frame, Time now) {
   const rosflight::Message message = with_printable_texts(frame.message);
   connection_.take(message, now, statistics_.lost());
   if (inbox_.size() == kInboxRoom) {
-    ++overrun_;
+    ++unfetched_;
     return;
   }
   inbox_.push_back({now, in_bench_time(message, now)});

@@ -43,12 +43,12 @@ class SerialFcu final : public Fcu {
   Connection& connection() { return connection_; }
   const Connection& connection() const { return connection_; }
   LinkHealth health(Time now) const {
-    return statistics_.health(now, decoder_.counts(), connection_.time_sync().round_trip);
+    LinkHealth health = statistics_.health(now, decoder_.counts(), connection_.time_sync().round_trip);
+    health.unfetched = unfetched_;
+    return health;
   }
   bool line_is_up() const { return line_.is_up(); }
   const LinkStatistics& statistics() const { return statistics_; }
-  /// Messages that nobody fetched in time.
-  std::uint64_t overrun() const { return overrun_; }
 
   static constexpr std::uint8_t kSystem = 1;
   static constexpr std::uint8_t kComponent = 50;
@@ -72,7 +72,7 @@ class SerialFcu final : public Fcu {
   std::vector<Arrival> inbox_;
   std::vector<std::uint8_t> outgoing_;
   std::uint8_t sequence_ = 0;
-  std::uint64_t overrun_ = 0;
+  std::uint64_t unfetched_ = 0;
   Time tried_ = Time::min();
   bool was_up_ = false;
 };

@@ -22,6 +22,7 @@ constexpr std::chrono::nanoseconds kLookPeriod = std::chrono::milliseconds(50);
 constexpr std::chrono::nanoseconds kGoneForGood = std::chrono::seconds(5);
 constexpr std::chrono::nanoseconds kSettled = std::chrono::milliseconds(500);
 constexpr std::chrono::nanoseconds kTimingPeriod = std::chrono::seconds(1);
+constexpr std::chrono::nanoseconds kHealthPeriod = std::chrono::milliseconds(100);
 
 DurationCounts counts_of(const hil_bridge::Histogram& histogram, const char* name, const char* meaning) {
   DurationCounts counts{name,
@@ -87,6 +88,7 @@ LiveBench::~LiveBench() {
 void LiveBench::wire_judge() {
   add_signals(signals_, nullptr, autopilot_->signals(), realtime_->telemetry(),
               scenario_.vehicle.rotors.size());
+  add_link_signals(signals_, scenario_, link_health_, {});
   std::vector<std::string> not_judged;
   for (const CheckConfig& check : scenario_.checks) not_judged.push_back(why_not_judged(check));
   judge_ = std::make_unique<Judge>(scenario_.checks, signals_,
@@ -98,6 +100,7 @@ void LiveBench::wire_log(const LiveOptions& options) {
   log_ =
       std::make_unique<FlightLog>(options.log_file, McapOptions{.journal = true, .in_background = true},
                                   loaded_, FlightLog::Sources{*autopilot_, realtime_->telemetry(), nullptr});
+  log_->recorder().add("/fcu/link", link_health_, kHealthPeriod, Recorder::When::kAlways);
   log_->recorder().add("/bench/timing", realtime_->timing(), kTimingPeriod, Recorder::When::kAlways);
   operator_->on_swap([this](const std::string& slot, const std::string& kind,
                             const autopilot::Module& module) { log_->watch(slot, kind, module); });
@@ -109,6 +112,7 @@ LiveBench::Time LiveBench::pass() {
   pass_wishes_on(now);
   if (now >= next_look_) {
     next_look_ = now + kLookPeriod;
+    link_health_ = fcu_->health(now);
     if (!live_since_) look_after_meeting(now);
     if (state_ == InterlockState::kLive) ask_for_take_off(now);
     show(now);

@@ -119,6 +119,7 @@ class LiveBench {
   std::unique_ptr<hil_bridge::Guard> guard_;
   std::unique_ptr<autopilot::Autopilot> autopilot_;
   std::unique_ptr<hil_bridge::Realtime> realtime_;
+  hil_bridge::LinkHealth link_health_;
   SignalTable signals_;
   std::unique_ptr<Judge> judge_;
   std::unique_ptr<Operator> operator_;

@@ -167,6 +167,8 @@ TEST_F(LiveProgramTest, EndsWithCtrlCAndLeavesALogThatOpens) {
   ASSERT_NE(log.topic("/autopilot/estimate"), nullptr);
   EXPECT_GT(log.topic("/autopilot/estimate")->time().size(), 50U);
   EXPECT_EQ(log.topic("/truth/state"), nullptr);
+  ASSERT_NE(log.topic("/fcu/link"), nullptr);
+  EXPECT_GT(log.topic("/fcu/link")->time().size(), 10U);
 }
 
 TEST_F(LiveProgramTest, IsEndedByItsWatchdogWhenItIsStopped) {
