@@ -119,17 +119,15 @@ void Ekf::correct_mag(const Vector3& m_B, Time now) {
 void Ekf::set_heading(double heading, double variance) {
   // The satellites know v_N. It must not turn with the heading: P goes over to v_N and back with the new
   // axes.
-  EkfState::Matrix T = EkfState::Matrix::Identity();
   const Vector3 v_N = rotation_NB(trig_) * x_.v_NB_B;
-  T.middleRows<3>(kV).middleCols<6>(kV) = ekf_gnss_velocity(x_, trig_).C;
-  P_ = T * P_ * T.transpose();
+  const EkfState::Matrix to_v_N = ekf_to_v_N(x_, trig_);
+  P_ = to_v_N * P_ * to_v_N.transpose();
   decorrelate(P_, kHeading, 1, variance);
   set_attitude({x_.theta.x(), x_.theta.y(), heading});
   const Matrix3 R_BN = rotation_NB(trig_).transpose();
   x_.v_NB_B = R_BN * v_N;
-  T.middleRows<3>(kV).middleCols<3>(kV) = R_BN;
-  T.middleRows<3>(kV).middleCols<3>(kT) = -R_BN * ekf_gnss_velocity(x_, trig_).C.rightCols<3>();
-  P_ = T * P_ * T.transpose();
+  const EkfState::Matrix from_v_N = ekf_from_v_N(x_, trig_);
+  P_ = from_v_N * P_ * from_v_N.transpose();
   mirror_upper(P_);
 }
 

@@ -16,6 +16,21 @@ GnssVelocityModel ekf_gnss_velocity(const EkfState& x, const EulerTrig& at) {
   return model;
 }
 
+EkfState::Matrix ekf_to_v_N(const EkfState& x, const EulerTrig& at) {
+  EkfState::Matrix T = EkfState::Matrix::Identity();
+  T.middleRows<3>(EkfState::kVelocity).middleCols<6>(EkfState::kVelocity) = ekf_gnss_velocity(x, at).C;
+  return T;
+}
+
+EkfState::Matrix ekf_from_v_N(const EkfState& x, const EulerTrig& at) {
+  // v_B = R^T v_N, and R dv_B + d(R v_B)/dTheta dTheta = dv_N.
+  EkfState::Matrix T = EkfState::Matrix::Identity();
+  const Matrix3 R_BN = rotation_NB(at).transpose();
+  T.block<3, 3>(EkfState::kVelocity, EkfState::kVelocity) = R_BN;
+  T.block<3, 3>(EkfState::kVelocity, EkfState::kAttitude) = -R_BN * ekf_gnss_velocity(x, at).C.rightCols<3>();
+  return T;
+}
+
 Vector3 expected_field(const Vector3& m_B, const Vector3& down_B, double innovation) {
   const double cosine = std::cos(innovation);
   return cosine * m_B + std::sin(innovation) * down_B.cross(m_B) +

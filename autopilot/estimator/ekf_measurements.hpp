@@ -23,6 +23,12 @@ struct GnssVelocityModel {
 /// C belongs to the columns (v, Theta), which are neighbours: [R | d(R v)/dTheta].
 GnssVelocityModel ekf_gnss_velocity(const EkfState& x, const EulerTrig& at);
 
+/// Derivative of (p, v_N, Theta, b) with respect to the state: who has v_N instead of v_B.
+EkfState::Matrix ekf_to_v_N(const EkfState& x, const EulerTrig& at);
+
+/// The way back, derivative of the state with respect to (p, v_N, Theta, b).
+EkfState::Matrix ekf_from_v_N(const EkfState& x, const EulerTrig& at);
+
 /// A field this near to vertical (squared sine of the angle) has no azimuth; keeps the quotients finite.
 inline constexpr double kLeastLevelness = 1.0e-9;
 

@@ -65,7 +65,7 @@ void ErrorStateFilter::start(const StartState& start) {
 
 void ErrorStateFilter::start_at_rest(const Vector3& down_B) {
   // The tilt came from the accelerometer, so its bias b tilts by -[down]x b/g (docs/equations.md, section 7).
-  const Matrix3 tilt_from_bias = skew(down_B) * (-1.0 / aiding().gravity);
+  const Matrix3 tilt_from_bias = tilt_from_accelerometer_bias(down_B, aiding().gravity);
   const Matrix3 cross = tilt_from_bias * P_.block<3, 3>(kA, kA);
   P_.block<3, 3>(kT, kT) += cross * tilt_from_bias.transpose();
   P_.block<3, 3>(kT, kA) = cross;
@@ -73,16 +73,12 @@ void ErrorStateFilter::start_at_rest(const Vector3& down_B) {
 }
 
 void ErrorStateFilter::start_heading(const Vector3& m_B, const Vector3& down_B) {
-  // The heading came from the compass, so tilt t and compass bias b turn it by -(H_t t + H_b b).
-  const ErrorMagModel model = error_state_mag(x_, m_B, aiding().mag.declination);
-  const Matrix3 across = Matrix3::Identity() - down_B * down_B.transpose();
-  const Matrix3 attitude_from_tilt = Matrix3::Identity() - down_B * model.H_attitude * across;
-  const Matrix3 attitude_from_bias = -down_B * model.H_bias;
+  const HeadingStart start = heading_start(x_, m_B, down_B, aiding().mag.declination);
   const Eigen::Matrix<double, ErrorState::kSize, 3> columns =
-      P_.middleCols<3>(kT).lazyProduct(attitude_from_tilt.transpose()) +
-      P_.middleCols<3>(kM).lazyProduct(attitude_from_bias.transpose());
+      P_.middleCols<3>(kT).lazyProduct(start.from_tilt.transpose()) +
+      P_.middleCols<3>(kM).lazyProduct(start.from_bias.transpose());
   const Matrix3 attitude =
-      attitude_from_tilt * columns.middleRows<3>(kT) + attitude_from_bias * columns.middleRows<3>(kM);
+      start.from_tilt * columns.middleRows<3>(kT) + start.from_bias * columns.middleRows<3>(kM);
   P_.middleCols<3>(kT) = columns;
   P_.middleRows<3>(kT) = columns.transpose();
   P_.block<3, 3>(kT, kT) = 0.5 * (attitude + attitude.transpose());
@@ -119,9 +115,8 @@ void ErrorStateFilter::inject(const ErrorState::Vector& correction) {
   x_ = x_.plus(correction);
   const Vector3 turn = correction.segment<3>(kT);
   if (turn.squaredNorm() < kLeastTurn * kLeastTurn) return;
-  // The attitude error is now measured from the turned attitude: Log(Exp(-turn) Exp(e)) = (I - [turn]x/2)(e -
-  // turn).
-  const Matrix3 turned = Matrix3::Identity() - 0.5 * skew(turn);
+  // The attitude error is now measured from the turned attitude.
+  const Matrix3 turned = error_after_turn(turn);
   const Eigen::Matrix<double, ErrorState::kSize, 3> columns =
       P_.middleCols<3>(kT).lazyProduct(turned.transpose());
   const Matrix3 attitude = turned * columns.middleRows<3>(kT);
@@ -253,9 +248,7 @@ void ErrorStateFilter::publish(StateEstimate& estimate) const {
   estimate.gyro_bias_B = x_.gyro_bias_B;
   estimate.accelerometer_bias_B = x_.accelerometer_bias_B;
   estimate.sigma_p_N = root_of(P_.diagonal().segment<3>(kP));
-  // v_B = R^T v: its error is R^T dv + [v_B]x dtheta.
-  Eigen::Matrix<double, 3, 6> J;
-  J << R_NB.transpose(), skew(estimate.v_NB_B);
+  const Eigen::Matrix<double, 3, 6> J = error_body_velocity(R_NB, estimate.v_NB_B);
   const Eigen::Matrix<double, 3, 6> JP = J.lazyProduct(P_.block<6, 6>(kV, kV));
   estimate.sigma_v_B = root_of((JP.cwiseProduct(J)).rowwise().sum());
   const Matrix3 S = euler_rate_matrix(EulerTrig(theta));

@@ -136,4 +136,31 @@ ErrorMagModel error_state_mag(const ErrorState& x, const Vector3& m_B, double de
   return model;
 }
 
+Eigen::Matrix<double, 3, 6> error_body_velocity(const Matrix3& R_NB, const Vector3& v_NB_B) {
+  // v_B = R^T v: its error is R^T dv + [v_B]x dtheta.
+  Eigen::Matrix<double, 3, 6> J;
+  J << R_NB.transpose(), skew(v_NB_B);
+  return J;
+}
+
+Matrix3 error_after_turn(const Vector3& turn) {
+  // Log(Exp(-turn) Exp(e)) = (I - [turn]x/2)(e - turn).
+  return Matrix3::Identity() - 0.5 * skew(turn);
+}
+
+Matrix3 tilt_from_accelerometer_bias(const Vector3& down_B, double gravity) {
+  return skew(down_B) * (-1.0 / gravity);
+}
+
+HeadingStart heading_start(const ErrorState& x, const Vector3& m_B, const Vector3& down_B,
+                           double declination) {
+  // Tilt t and compass bias b turn the heading by -(H_t t + H_b b).
+  const ErrorMagModel model = error_state_mag(x, m_B, declination);
+  const Matrix3 across = Matrix3::Identity() - down_B * down_B.transpose();
+  HeadingStart attitude;
+  attitude.from_tilt = Matrix3::Identity() - down_B * model.H_attitude * across;
+  attitude.from_bias = -down_B * model.H_bias;
+  return attitude;
+}
+
 }  // namespace ironbird::autopilot

@@ -82,4 +82,34 @@ struct ErrorMagModel {
 /// @param m_B  the measured unit vector along the magnetic field, less the bias of `x`
 ErrorMagModel error_state_mag(const ErrorState& x, const Vector3& m_B, double declination);
 
+/// Derivative of v_B with respect to the errors of velocity and attitude, which are neighbours.
+/// @param v_NB_B  R^T v_N, m/s
+Eigen::Matrix<double, 3, 6> error_body_velocity(const Matrix3& R_NB, const Vector3& v_NB_B);
+
+/// The error of an attitude that was turned by `turn`, from its error before: derivative of
+/// Log(Exp(-turn) Exp(e)) at e = turn, without terms of the second order in `turn`.
+/// @param turn  rad
+Matrix3 error_after_turn(const Vector3& turn);
+
+/// What a bias of the accelerometer, m/s^2, does to the tilt that was found from it at rest: error of the
+/// attitude, rad. Nothing about `down_B`, which is the unit vector down.
+Matrix3 tilt_from_accelerometer_bias(const Vector3& down_B, double gravity);
+
+/// What is wrong with an attitude whose heading was found with the compass.
+struct HeadingStart {
+  Matrix3 from_tilt = Matrix3::Identity();
+  Matrix3 from_bias = Matrix3::Zero();
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("from_tilt", self.from_tilt, "1", "error of the attitude from the error of the tilt");
+    visit("from_bias", self.from_bias, "rad", "error of the attitude from the bias of the unit field");
+  }
+};
+
+/// @param m_B  unit vector along the measured field
+/// @param down_B  unit vector down
+HeadingStart heading_start(const ErrorState& x, const Vector3& m_B, const Vector3& down_B,
+                           double declination);
+
 }  // namespace ironbird::autopilot

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "autopilot/estimator/aided_estimator.hpp"
+#include "autopilot/estimator/alignment.hpp"
 #include "autopilot/estimator/ekf_measurements.hpp"
 #include "autopilot/estimator/ekf_process.hpp"
 #include "autopilot/estimator/error_state_process.hpp"
@@ -97,7 +98,7 @@ Vector dynamics_at(const EkfState::Vector& x, const EkfInput& u) {
 constexpr double kErrorStep = 1.0e-3;  // s, of the error-state transition
 const WalkDecay kDecay{.gnss = 0.999, .baro = 0.998, .mag = 0.997};
 
-std::vector<Model> models() {
+std::vector<Model> processes_and_measurements() {
   std::vector<Model> all;
   all.push_back(
       {"EkfDynamicsOfState", EkfState::kSize,
@@ -180,11 +181,99 @@ std::vector<Model> models() {
   return all;
 }
 
+/// Of the velocity in N and in B, and of what is published from the error state.
+std::vector<Model> changes_of_variables() {
+  std::vector<Model> all;
+  all.push_back({"EkfToVelocityInN", EkfState::kSize,
+                 [](const Point& p) -> Matrix { return ekf_to_v_N(ekf_state(p), trig(p)); },
+                 [](const Point& p, const Vector& dx) -> Vector {
+                   EkfState::Vector x = ekf_state(p).stacked() + dx;
+                   const EulerTrig at(x.segment<3>(EkfState::kAttitude));
+                   const Vector3 v_B = x.segment<3>(EkfState::kVelocity);
+                   x.segment<3>(EkfState::kVelocity) = rotation_NB(at) * v_B;
+                   return x;
+                 }});
+  all.push_back({"EkfFromVelocityInN", EkfState::kSize,
+                 [](const Point& p) -> Matrix { return ekf_from_v_N(ekf_state(p), trig(p)); },
+                 [](const Point& p, const Vector& dx) -> Vector {
+                   EkfState::Vector x = ekf_state(p).stacked() + dx;
+                   const EulerTrig at(x.segment<3>(EkfState::kAttitude));
+                   const Vector3 v_N =
+                       rotation_NB(trig(p)) * p.v_B + Vector3(dx.segment<3>(EkfState::kVelocity));
+                   x.segment<3>(EkfState::kVelocity) = rotation_NB(at).transpose() * v_N;
+                   return x;
+                 }});
+  all.push_back({"BodyVelocityOfErrorState", 6,
+                 [](const Point& p) -> Matrix {
+                   return error_body_velocity(error_state(p).q_NB.toRotationMatrix(), p.v_B);
+                 },
+                 [](const Point& p, const Vector& e) -> Vector {
+                   ErrorState::Vector error = ErrorState::Vector::Zero();
+                   error.segment<6>(ErrorState::kVelocity) = e;
+                   const ErrorState x = error_state(p).plus(error);
+                   return x.q_NB.conjugate() * x.v_NB_N;
+                 }});
+  all.push_back({"AnglesOfErrorState", 3, [](const Point& p) -> Matrix { return euler_rate_matrix(trig(p)); },
+                 [](const Point& p, const Vector& e) -> Vector {
+                   const Quaternion q_NB = quaternion_NB(p.theta) * exponential(e);
+                   const Vector3 theta = euler_from_quaternion(q_NB);
+                   return theta.binaryExpr(p.theta,
+                                           [](double a, double b) { return shortest_difference(a, b); });
+                 }});
+  return all;
+}
+
+/// The error of the attitude that the alignment finds at rest when accelerometer (first three) and compass
+/// (last three) have a small bias.
+Vector3 alignment_error(const Point& p, const Vector& bias) {
+  const Vector3 f_B = rotation_NB(trig(p)).transpose() * Vector3(0.0, 0.0, -kGravity);
+  const double declination = std::atan2(kField.y(), kField.x());
+  const auto aligned = [&](const Vector3& f, const Vector3& m) {
+    return attitude_from_vectors(f, Vector3::Zero(), m, declination, kGravity);
+  };
+  const Quaternion found = aligned(f_B, field_B(p));
+  return logarithm(found.conjugate() * aligned(f_B - bias.head<3>(), field_B(p) - bias.tail<3>()));
+}
+
+std::vector<Model> starts() {
+  const auto down_B = [](const Point& p) -> Vector3 { return rotation_NB(trig(p)).row(2).transpose(); };
+  const auto heading = [down_B](const Point& p) {
+    const double declination = std::atan2(kField.y(), kField.x());
+    return heading_start(error_state(p), field_B(p), down_B(p), declination);
+  };
+  std::vector<Model> all;
+  all.push_back(
+      {"TiltOfAlignment", 3,
+       [down_B](const Point& p) -> Matrix { return tilt_from_accelerometer_bias(down_B(p), kGravity); },
+       [down_B](const Point& p, const Vector& bias) -> Vector {
+         Vector both = Vector::Zero(6);
+         both.head<3>() = bias;
+         const Vector3 error = alignment_error(p, both);
+         return error - down_B(p) * down_B(p).dot(error);
+       }});
+  all.push_back({"AttitudeOfAlignment", 6,
+                 [down_B, heading](const Point& p) -> Matrix {
+                   const HeadingStart start = heading(p);
+                   Matrix J(3, 6);
+                   J << start.from_tilt * tilt_from_accelerometer_bias(down_B(p), kGravity), start.from_bias;
+                   return J;
+                 },
+                 [](const Point& p, const Vector& bias) -> Vector { return alignment_error(p, bias); }});
+  return all;
+}
+
 /// 1 for the rows in which the pole of the Euler angles shows: their own rates.
 Vector steep_rows(const std::string& model, Eigen::Index rows) {
   Vector steep = Vector::Zero(rows);
   if (model.starts_with("EkfDynamics")) steep.segment<3>(EkfState::kAttitude).setOnes();
+  if (model == "AnglesOfErrorState") steep.setOnes();
   return steep;
+}
+
+std::vector<Model> models() {
+  std::vector<Model> all = processes_and_measurements();
+  for (const auto& more : {changes_of_variables(), starts()}) all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
 struct JacobianCase {
@@ -225,6 +314,23 @@ TEST_P(JacobianTest, AgreesWithCentralDifferences) {
 INSTANTIATE_TEST_SUITE_P(Models, JacobianTest, ::testing::ValuesIn(cases()), [](const auto& case_) {
   return case_.param.model.name + "_" + case_.param.point.name;
 });
+
+TEST(JacobianTest, TurnsTheErrorAsFarAsItsFirstOrderGoes) {
+  const Vector3 direction = Vector3(0.6, -0.7, 0.4).normalized();
+  for (const double angle : {0.0, 1.0e-4, 1.0e-3, 1.0e-2, 0.1}) {
+    const Vector3 turn = angle * direction;
+    const double next_term = angle * angle / 6.0;  // of the series of the derivative
+    const Matrix3 analytic = error_after_turn(turn);
+    for (int column = 0; column < 3; ++column) {
+      const Vector3 step = kStep * Vector3::Unit(column);
+      const auto error = [&](const Vector3& before) {
+        return logarithm(exponential(-turn) * exponential(before));
+      };
+      const Vector3 numeric = (error(turn + step) - error(turn - step)) / (2.0 * kStep);
+      EXPECT_LT((numeric - analytic.col(column)).norm(), kTolerance + next_term) << angle << ' ' << column;
+    }
+  }
+}
 
 TEST(JacobianTest, StaysFiniteAtThePole) {
   for (const double pitch : {kHalfPi, -kHalfPi}) {

@@ -39,7 +39,8 @@ struct QuadraticDrag : ForceModel {
 /// Smooth, so that the order of a scheme can be seen.
 class FigureOfEight : public ForceModel {
  public:
-  FigureOfEight(double mass, const Matrix3& J_B) : mass_(mass), J_B_(J_B) {}
+  /// @param down  where its middle is, m
+  FigureOfEight(double mass, const Matrix3& J_B, double down = -50.0) : mass_(mass), J_B_(J_B), down_(down) {}
 
   /// Of the step that comes next, s.
   void set_start(double start) { start_ = start; }
@@ -54,9 +55,9 @@ class FigureOfEight : public ForceModel {
     return forces;
   }
 
-  static RigidBodyState start() {
+  RigidBodyState start() const {
     RigidBodyState state;
-    state.p_NB_N = {0.0, 0.0, -50.0};
+    state.p_NB_N = {0.0, 0.0, down_};
     return state;
   }
 
@@ -78,7 +79,7 @@ class FigureOfEight : public ForceModel {
   }
 
   RotorSpeeds wanted_speeds(const RigidBodyState& state, double t) const {
-    const Vector3 p(3.0 * std::sin(0.9 * t), 2.0 * std::sin(1.8 * t), -50.0 + std::sin(0.5 * t));
+    const Vector3 p(3.0 * std::sin(0.9 * t), 2.0 * std::sin(1.8 * t), down_ + std::sin(0.5 * t));
     const Vector3 v(2.7 * std::cos(0.9 * t), 3.6 * std::cos(1.8 * t), 0.5 * std::cos(0.5 * t));
     const Vector3 a_N = 1.5 * (p - state.p_NB_N) + 2.0 * (v - state.v_NB_N) - Vector3(0.0, 0.0, kGravity);
     const Vector3 up_B = state.q_NB.conjugate() * a_N.normalized();
@@ -97,6 +98,7 @@ class FigureOfEight : public ForceModel {
 
   double mass_;
   Matrix3 J_B_;
+  double down_;
   double start_ = 0.0;
 };
 
