@@ -17,6 +17,13 @@ bool writes_to_flash(const rosflight::Message& message) {
   return order != nullptr && order->command == rosflight::kWriteParameters;
 }
 
+/// Do these carry the unit's own SYS_ID? Its first texts and its answers to unknown orders carry another
+/// number; a unit on which nobody has set anything still sends these.
+bool tells_system(const rosflight::Message& message) {
+  return std::holds_alternative<rosflight::Heartbeat>(message) ||
+         std::holds_alternative<rosflight::SmallImu>(message);
+}
+
 }  // namespace
 
 SerialFcu::SerialFcu(transport::ByteStream& line, const ConnectionConfig& config, Gate* gate)
@@ -55,6 +62,7 @@ void SerialFcu::watch_line(Time now) {
 
 void SerialFcu::take(const rosflight::Frame& frame, Time now) {
   statistics_.take(frame, now);
+  if (tells_system(frame.message)) connection_.follow(frame.sender.system);
   connection_.take(frame.message, now, statistics_.lost());
   if (inbox_.size() == kInboxRoom) {
     ++overrun_;
