@@ -12,6 +12,7 @@
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/fcu/fcu_verb.hpp"
+#include "scenarios/fcu/parameter_bounds.hpp"
 #include "scenarios/fcu/parameter_file.hpp"
 #include "scenarios/fcu/parameter_push.hpp"
 #include "scenarios/fcu/unit_line.hpp"
@@ -114,16 +115,19 @@ int get(const ParamsArguments& arguments, UnitOnLine& unit) {
 
 int set(const ParamsArguments& arguments, UnitOnLine& unit) {
   std::vector<ParameterRecord> wanted;
+  std::vector<std::string> findings;
   for (std::size_t k = 0; k + 1 < arguments.words.size(); k += 2) {
     ParameterRecord record = record_named(arguments.words[k], unit);
     const auto bits = hil_bridge::value_bits(record.type, arguments.words[k + 1]);
-    if (!bits) {
-      throw ConfigError(record.name + " = " + arguments.words[k + 1] + ", must be " +
-                        (record.type == hil_bridge::kIntegerParameter ? "a whole number" : "a real number"));
-    }
-    record.bits = *bits;
+    record.bits = bits.value_or(0);
+    const char* const number =
+        record.type == hil_bridge::kIntegerParameter ? "must be a whole number" : "must be a real number";
+    const std::string complaint = bits ? complaint_about_value(record) : number;
+    if (!complaint.empty())
+      findings.push_back(record.name + " = " + arguments.words[k + 1] + ", " + complaint);
     wanted.push_back(record);
   }
+  if (!findings.empty()) throw ConfigError(findings);
   return set_all(wanted, arguments, unit);
 }
 
@@ -182,9 +186,11 @@ int params(ParamsArguments arguments, const autopilot::Modules& modules) {
   // A file that cannot be read is told before the unit is waited for.
   if (reads_a_file(arguments.deed)) {
     const std::filesystem::path file = arguments.words[0];
+    ParameterJudge judge;
+    if (arguments.deed == "load") judge = complaint_about_value;
     arguments.file = file.extension() == ".toml"
                          ? wanted_parameters(load_scenario(file, {}, modules).scenario)
-                         : read_parameter_file(file);
+                         : read_parameter_file(file, judge);
   }
   UnitOnLine unit(arguments.address);
   unit.meet();

@@ -61,6 +61,25 @@ TEST_F(FcuProgramTest, SetsNothingOfAFileThatDoesNotFit) {
   EXPECT_THAT(run(fcu("params get RC_MAX_THR")).text, testing::Not(HasSubstr("0.5\n")));
 }
 
+TEST_F(FcuProgramTest, SetsNoValueOutsideTheFirmwaresTable) {
+  const Server server(link_);
+  const std::string file = (folder_ / "wild.yaml").string();
+  std::ofstream(file) << "- {name: RC_MAX_THR, type: 9, value: 0.5}\n"
+                         "- {name: FAILSAFE_THR, type: 9, value: 7.5}\n"
+                         "- {name: MOTOR_IDLE_THR, type: 9, value: .nan}\n";
+  Outcome outcome = run(fcu("params load " + file));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.text, file + ":2:40: FAILSAFE_THR = 7.5, must be between 0 and 1\n" + file +
+                              ":3:42: MOTOR_IDLE_THR = .nan, must be finite\n");
+  outcome = run(fcu("params set RC_MAX_THR 0.5 NUM_MOTORS 99999 PID_ROLL_RATE_P inf"));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.text,
+            "NUM_MOTORS = 99999, must be between 1 and 10\nPID_ROLL_RATE_P = inf, must be finite\n");
+  EXPECT_THAT(run(fcu("params get RC_MAX_THR")).text, testing::Not(HasSubstr(" 0.5\n")));
+  // What a unit has may be looked at, whatever it is.
+  EXPECT_THAT(run(fcu("params verify " + file)).text, HasSubstr("3 differences"));
+}
+
 TEST_F(FcuProgramTest, SetsNothingInAnArmedUnit) {
   const Server server(link_, "pilot.arm_at=\"0 s\"");
   ASSERT_NO_FATAL_FAILURE(wait_until_armed());
