@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -125,6 +126,8 @@ int set(const ParamsArguments& arguments, UnitOnLine& unit) {
     const std::string complaint = bits ? complaint_about_value(record) : number;
     if (!complaint.empty())
       findings.push_back(record.name + " = " + arguments.words[k + 1] + ", " + complaint);
+    const auto same = [&](const ParameterRecord& other) { return other.name == record.name; };
+    if (std::any_of(wanted.begin(), wanted.end(), same)) findings.push_back(record.name + ": comes twice");
     wanted.push_back(record);
   }
   if (!findings.empty()) throw ConfigError(findings);

@@ -75,6 +75,9 @@ TEST_F(FcuProgramTest, SetsNoValueOutsideTheFirmwaresTable) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.text,
             "NUM_MOTORS = 99999, must be between 1 and 10\nPID_ROLL_RATE_P = inf, must be finite\n");
+  outcome = run(fcu("params set RC_MAX_THR 0.5 RC_MAX_THR 0.6"));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.text, "RC_MAX_THR: comes twice\n");
   EXPECT_THAT(run(fcu("params get RC_MAX_THR")).text, testing::Not(HasSubstr(" 0.5\n")));
   // What a unit has may be looked at, whatever it is.
   EXPECT_THAT(run(fcu("params verify " + file)).text, HasSubstr("3 differences"));
