@@ -63,9 +63,8 @@ const CalibrationKind* find_calibration(std::string_view name) {
   return found == std::end(kKinds) ? nullptr : found;
 }
 
-CalibrationClient::CalibrationClient(const CalibrationKind& kind, const ParameterClient& parameters,
-                                     std::uint8_t system)
-    : kind_(kind), parameters_(parameters), system_(system), told_(kind.parameters.size()) {
+CalibrationClient::CalibrationClient(const CalibrationKind& kind, const ParameterClient& parameters)
+    : kind_(kind), parameters_(parameters), told_(kind.parameters.size()) {
   for (const std::string_view name : kind.parameters) {
     before_.push_back(parameters.find(name).value_or(ParameterRecord{std::string(name), kRealParameter, 0}));
   }
@@ -141,10 +140,10 @@ void CalibrationClient::ask_for_result(Time now, const Send& send) {
   asked_ = now;
   for (std::size_t k = 0; k < told_.size(); ++k) {
     if (told_[k]) continue;
-    rosflight::ParamRequestRead request{
-        .param_index = -1, .target_system = system_, .target_component = 0, .param_id = {}};
-    request.param_id = rosflight::field_of<16>(kind_.parameters[k]);
-    send(request);
+    send(rosflight::ParamRequestRead{.param_index = -1,
+                                     .target_system = parameters_.system(),
+                                     .target_component = 0,
+                                     .param_id = rosflight::field_of<16>(kind_.parameters[k])});
   }
 }
 

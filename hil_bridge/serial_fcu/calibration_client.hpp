@@ -67,7 +67,7 @@ class CalibrationClient {
   using Send = std::function<void(const rosflight::Message&)>;
 
   /// @param parameters  all known; outlives this
-  CalibrationClient(const CalibrationKind& kind, const ParameterClient& parameters, std::uint8_t system = 1);
+  CalibrationClient(const CalibrationKind& kind, const ParameterClient& parameters);
 
   void take(const rosflight::Message& message, Time now);
   /// Sends what is due. Call it often, at least every 20 ms.
@@ -94,7 +94,6 @@ class CalibrationClient {
 
   const CalibrationKind& kind_;
   const ParameterClient& parameters_;
-  std::uint8_t system_;
   CalibrationState state_ = CalibrationState::kAsked;
   std::string reason_;
   std::vector<ParameterRecord> before_;

@@ -31,7 +31,7 @@ struct ConnectionConfig {
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
-    visit("system", self.system, "1", "SYS_ID of the unit");
+    visit("system", self.system, "1", "SYS_ID of the unit, until it is heard");
     visit("synchronise", self.synchronise, "1", "turn its time stamps into the bench's");
     visit("download", self.download, "1", "ask for all of its parameters");
   }
@@ -61,6 +61,8 @@ class Connection {
   void begin(Time now);
   /// @param lost  frames of the unit that did not arrive, since the line came up
   void take(const rosflight::Message& message, Time now, std::uint64_t lost = 0);
+  /// The unit's frames come from this system: it is the one to which its parameters are asked for.
+  void follow(std::uint8_t system) { parameters_.address(system); }
   /// Sends what is due. Call it often, at least every 20 ms.
   void advance(Time now, const Send& send);
 

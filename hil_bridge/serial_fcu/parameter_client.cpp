@@ -23,6 +23,12 @@ constexpr int kMostParameters = 4096;
 
 }  // namespace
 
+void ParameterClient::address(std::uint8_t system) {
+  if (system == system_) return;
+  system_ = system;
+  list_asked_ = Time::min();  // it did not hear the request
+}
+
 void ParameterClient::start_download(Time now) {
   slots_.clear();
   progress_ = {};

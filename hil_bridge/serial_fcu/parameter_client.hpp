@@ -52,6 +52,10 @@ class ParameterClient {
   /// @param system  SYS_ID of the FCU
   explicit ParameterClient(std::uint8_t system = 1) : system_(system) {}
 
+  /// From now on the FCU has this SYS_ID. It hears nothing that is addressed to another.
+  void address(std::uint8_t system);
+  std::uint8_t system() const { return system_; }
+
   /// Forgets everything and asks for all.
   void start_download(Time now);
 

@@ -28,6 +28,13 @@ rosflight::Message with_printable_texts(rosflight::Message message) {
   return message;
 }
 
+/// Do these carry the unit's own SYS_ID? Its first texts and its answers to unknown orders carry another
+/// number; a unit on which nobody has set anything still sends these.
+bool tells_system(const rosflight::Message& message) {
+  return std::holds_alternative<rosflight::Heartbeat>(message) ||
+         std::holds_alternative<rosflight::SmallImu>(message);
+}
+
 }  // namespace
 
 SerialFcu::SerialFcu(transport::ByteStream& line, const ConnectionConfig& config, Gate* gate)
@@ -67,6 +74,7 @@ void SerialFcu::watch_line(Time now) {
 void SerialFcu::take(const rosflight::Frame& frame, Time now) {
   statistics_.take(frame, now);
   const rosflight::Message message = with_printable_texts(frame.message);
+  if (tells_system(message)) connection_.follow(frame.sender.system);
   connection_.take(message, now, statistics_.lost());
   if (inbox_.size() == kInboxRoom) {
     ++unfetched_;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hil_bridge/transport/serial_settings.hpp"
+#include "hil_bridge/transport/terminal_owner.hpp"
 
 namespace ironbird::hil_bridge::transport {
 
@@ -19,14 +20,29 @@ namespace {
 
 constexpr int kAnyBaud = 921600;
 constexpr std::size_t kGreatestName = 64;
+const fs::path kTerminals = "/dev/pts";
+
+/// What is at `link` that must stay there, and what to do; or empty.
+std::string in_the_way(const std::string& link, const std::string& device) {
+  std::error_code error;
+  const fs::file_status there = fs::symlink_status(link, error);
+  if (!fs::exists(there)) return {};
+  if (!fs::is_symlink(there)) return link + ": something else is there; name a path that is free";
+  const fs::path target = fs::read_symlink(link, error);
+  if (target.parent_path() != kTerminals) {
+    return link + ": is a link to " + target.string() +
+           ", which is no pseudo-terminal; name a path that is free";
+  }
+  // One that is no more has given its number back, perhaps to the one that is being made here.
+  if (target == device || !fs::exists(target, error)) return {};
+  return link + ": is a link to " + target.string() + ", which " + owner_of_terminal(target) +
+         " has; end that, name another path, or remove the link if it is an old one";
+}
 
 /// Points `link` to `device`. @return empty, or what is wrong
 std::string make_link(const std::string& link, const std::string& device) {
+  if (const std::string problem = in_the_way(link, device); !problem.empty()) return problem;
   std::error_code error;
-  const fs::file_status there = fs::symlink_status(link, error);
-  if (fs::exists(there) && !fs::is_symlink(there)) {
-    return link + ": something else is there; name a path that is free";
-  }
   fs::remove(link, error);
   fs::create_symlink(device, link, error);
   return error ? link + ": " + error.message() + "; name a path in a folder that exists and may be written to"

@@ -11,9 +11,9 @@ namespace ironbird::hil_bridge::transport {
 /// program may open as a serial port.
 class PseudoTerminal final : public ByteStream {
  public:
-  /// @param link  where a symbolic link to the device is made, or empty; a link that is there is replaced,
-  ///              anything else is not
-  /// @throws LinkError
+  /// @param link  where a symbolic link to the device is made, or empty. The link of a pseudo-terminal that
+  ///              is no more is replaced, anything else is not
+  /// @throws LinkError saying what is there, and whose
   explicit PseudoTerminal(std::string link = {});
   PseudoTerminal(const PseudoTerminal&) = delete;
   PseudoTerminal& operator=(const PseudoTerminal&) = delete;

@@ -92,7 +92,8 @@ inline constexpr auto kBeforeMixer = std::to_array<ParameterInfo>({
 });
 
 inline constexpr auto kAfterMixer = std::to_array<ParameterInfo>({
-    integer("SYS_ID", 1, "1", "system id on the link"),
+    integer("SYS_ID", 1, "1", "system id on the link; one that a byte cannot hold is never addressed", 1,
+            255),
     real("PID_ROLL_RATE_P", 0.070F, "", "roll-rate loop"),
     real("PID_ROLL_RATE_I", 0.0F, "", "roll-rate loop"),
     real("PID_ROLL_RATE_D", 0.0F, "", "roll-rate loop"),

@@ -1,10 +1,10 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "hil_bridge/transport/byte_stream.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/verb_options.hpp"
@@ -13,7 +13,9 @@
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/fcu/fcu_verb.hpp"
+#include "scenarios/fcu/parameter_bounds.hpp"
 #include "scenarios/fcu/parameter_file.hpp"
+#include "scenarios/fcu/parameter_push.hpp"
 #include "scenarios/fcu/unit_line.hpp"
 
 namespace ironbird::scenarios {
@@ -22,10 +24,6 @@ namespace {
 
 using hil_bridge::ParameterDifference;
 using hil_bridge::ParameterRecord;
-
-constexpr int kPasses = 3;             // a value may change others: a canned mixer rewrites 220
-constexpr double kSetPatience = 60.0;  // s, for a whole file over a bad line
-constexpr double kSettle = 0.5;        // s in which the unit says what else has changed
 
 struct ParamsArguments {
   UnitAddress address;
@@ -48,16 +46,7 @@ void print(const std::vector<ParameterDifference>& differences, const char* one,
     std::printf("%-16s %s %s, %s %s\n", difference.name.c_str(), one, value_of(difference.one).c_str(), other,
                 value_of(difference.other).c_str());
   }
-}
-
-/// Of the file's entries those that the unit has otherwise. What the file does not name is nobody's business.
-std::vector<ParameterDifference> wanted_changes(const std::vector<ParameterRecord>& file, UnitOnLine& unit) {
-  std::vector<ParameterDifference> changes;
-  for (const ParameterDifference& difference :
-       hil_bridge::differences(file, unit.connection().parameters().known())) {
-    if (difference.one) changes.push_back(difference);
-  }
-  return changes;
+  std::fflush(stdout);  // what is said about them comes after them
 }
 
 std::string unknown(const std::string& name, UnitOnLine& unit) {
@@ -88,34 +77,24 @@ void check_fits(const std::vector<ParameterRecord>& file, UnitOnLine& unit) {
   if (!findings.empty()) throw ConfigError(findings);
 }
 
-/// Sets everything, sees what that changed besides, and sets again. @return what is still different
-std::vector<ParameterDifference> make_equal(const std::vector<ParameterRecord>& file, UnitOnLine& unit) {
-  hil_bridge::ParameterClient& client = unit.connection().parameters();
-  for (int pass = 0; pass < kPasses && !interrupt_requested(); ++pass) {
-    const auto changes = wanted_changes(file, unit);
-    if (changes.empty()) break;
-    if (!unit.until(1.0, [&] { return unit.connection().disarmed(unit.now()); })) {
-      throw hil_bridge::transport::LinkError(
-          "the unit does not report that it is disarmed; nothing was set. Disarm it first");
-    }
-    for (const ParameterDifference& change : changes) client.set(*change.one);
-    unit.until(kSetPatience, [&] { return client.idle(); });
-    unit.until(kSettle, [] { return false; });
+/// Says what is set and what is not.
+int tell(const PushResult& result, std::size_t wanted) {
+  print(result.left, "wanted", result.broken_off.empty() ? "the unit has" : "the unit last said");
+  const std::size_t left = result.left.size();
+  if (result.broken_off.empty()) {
+    std::fprintf(stderr, "%zu of %zu parameters are not as wanted\n", left, wanted);
+  } else {
+    std::fprintf(stderr,
+                 "%s: %zu of %zu parameters are set, %zu are not, or not known to be. Set them again\n",
+                 result.broken_off.c_str(), wanted - left, wanted, left);
   }
-  client.start_download(unit.now());
-  unit.until(unit.patience() + kSetPatience, [&] { return client.progress().complete; });
-  return wanted_changes(file, unit);
+  return interrupt_requested() ? kExitInterrupted : kExitHardware;
 }
 
 int set_all(const std::vector<ParameterRecord>& wanted, const ParamsArguments& arguments, UnitOnLine& unit) {
   check_fits(wanted, unit);
-  const auto left = make_equal(wanted, unit);
-  if (interrupt_requested()) return kExitInterrupted;
-  if (!left.empty()) {
-    print(left, "wanted", "the unit has");
-    std::fprintf(stderr, "%zu of %zu parameters are not as wanted\n", left.size(), wanted.size());
-    return kExitHardware;
-  }
+  const PushResult result = push_parameters(wanted, unit);
+  if (!result.left.empty() || !result.broken_off.empty()) return tell(result, wanted.size());
   std::fprintf(stderr, "as wanted, read back from the unit: %zu parameter%s\n", wanted.size(),
                wanted.size() == 1 ? "" : "s");
   if (arguments.keep) return unit.keep() ? kExitPass : kExitHardware;
@@ -137,23 +116,28 @@ int get(const ParamsArguments& arguments, UnitOnLine& unit) {
 
 int set(const ParamsArguments& arguments, UnitOnLine& unit) {
   std::vector<ParameterRecord> wanted;
+  std::vector<std::string> findings;
   for (std::size_t k = 0; k + 1 < arguments.words.size(); k += 2) {
     ParameterRecord record = record_named(arguments.words[k], unit);
     const auto bits = hil_bridge::value_bits(record.type, arguments.words[k + 1]);
-    if (!bits) {
-      throw ConfigError(record.name + " = " + arguments.words[k + 1] + ", must be " +
-                        (record.type == hil_bridge::kIntegerParameter ? "a whole number" : "a real number"));
-    }
-    record.bits = *bits;
+    record.bits = bits.value_or(0);
+    const char* const number =
+        record.type == hil_bridge::kIntegerParameter ? "must be a whole number" : "must be a real number";
+    const std::string complaint = bits ? complaint_about_value(record) : number;
+    if (!complaint.empty())
+      findings.push_back(record.name + " = " + arguments.words[k + 1] + ", " + complaint);
+    const auto same = [&](const ParameterRecord& other) { return other.name == record.name; };
+    if (std::any_of(wanted.begin(), wanted.end(), same)) findings.push_back(record.name + ": comes twice");
     wanted.push_back(record);
   }
+  if (!findings.empty()) throw ConfigError(findings);
   return set_all(wanted, arguments, unit);
 }
 
 int compare(const ParamsArguments& arguments, UnitOnLine& unit, bool all) {
   const auto& file = arguments.file;
   const auto found = all ? hil_bridge::differences(file, unit.connection().parameters().known())
-                         : wanted_changes(file, unit);
+                         : wanted_changes(file, unit.connection().parameters().known());
   print(found, "file", "unit");
   std::fprintf(stderr, "%zu difference%s\n", found.size(), found.size() == 1 ? "" : "s");
   return found.empty() ? kExitPass : kExitFail;
@@ -205,9 +189,11 @@ int params(ParamsArguments arguments, const autopilot::Modules& modules) {
   // A file that cannot be read is told before the unit is waited for.
   if (reads_a_file(arguments.deed)) {
     const std::filesystem::path file = arguments.words[0];
+    ParameterJudge judge;
+    if (arguments.deed == "load") judge = complaint_about_value;
     arguments.file = file.extension() == ".toml"
                          ? wanted_parameters(load_scenario(file, {}, modules).scenario)
-                         : read_parameter_file(file);
+                         : read_parameter_file(file, judge);
   }
   UnitOnLine unit(arguments.address);
   unit.meet();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,14 @@ std::string parameter_file_text(const std::vector<hil_bridge::ParameterRecord>& 
 void write_parameter_file(const std::filesystem::path& file,
                           const std::vector<hil_bridge::ParameterRecord>& records);
 
-/// @throws ConfigError with every finding, `file:line: what is wrong`: no YAML, an entry that is not one, a
-/// value that its type cannot hold, a name that comes twice
-std::vector<hil_bridge::ParameterRecord> read_parameter_file(const std::filesystem::path& file);
+/// What a parameter's value must be, when it is not; else empty.
+using ParameterJudge = std::function<std::string(const hil_bridge::ParameterRecord&)>;
+
+/// Reads all of a file or nothing. @param judge  is asked about every value, when there is one
+/// @throws ConfigError with every finding, `file:line:column: what is wrong`: no YAML or more than one
+/// document, an entry that is not one, a key that it cannot have or has twice, a value that its type cannot
+/// hold or that the judge refuses, a name that comes twice
+std::vector<hil_bridge::ParameterRecord> read_parameter_file(const std::filesystem::path& file,
+                                                             const ParameterJudge& judge = {});
 
 }  // namespace ironbird::scenarios

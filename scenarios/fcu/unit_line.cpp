@@ -59,6 +59,15 @@ std::unique_ptr<ByteStream> open_line(const UnitAddress& address) {
   return port;
 }
 
+std::string why_not_kept(hil_bridge::ParameterOutcome outcome) {
+  if (outcome == hil_bridge::ParameterOutcome::kRefused) {
+    return "the unit refused to write them to its flash; it does while it is armed, and when the flash does "
+           "not "
+           "take them. `ironbird fcu monitor` shows its state and its texts";
+  }
+  return "the unit did not confirm that it wrote them to flash; try again with --keep";
+}
+
 UnitOnLine::UnitOnLine(const UnitAddress& address, Talk talk)
     : address_(address),
       line_(open_line(address)),
@@ -113,8 +122,8 @@ bool UnitOnLine::keep() {
   client.write_to_flash();
   until(kFlashPatience, [&] { return client.write_outcome() != hil_bridge::ParameterOutcome::kPending; });
   if (client.write_outcome() == hil_bridge::ParameterOutcome::kDone) return true;
-  std::fputs("the values are set, but not kept: the unit did not confirm that it wrote them to flash\n",
-             stderr);
+  std::fprintf(stderr, "the values are set, but not kept: %s\n",
+               why_not_kept(client.write_outcome()).c_str());
   return false;
 }
 

@@ -28,6 +28,9 @@ void add_unit_address(VerbOptions& options, UnitAddress& address);
 /// line that cannot be opened
 std::unique_ptr<hil_bridge::transport::ByteStream> open_line(const UnitAddress& address);
 
+/// Why values were not written to flash, and what to do.
+std::string why_not_kept(hil_bridge::ParameterOutcome outcome);
+
 /// A unit on the desk, talked to in real time: asked, and set while it is disarmed. No motor command ever
 /// leaves.
 class UnitOnLine {

@@ -153,6 +153,15 @@ TEST(ParameterClientTest, SaysThatASetGotNoAnswer) {
   EXPECT_EQ(client.write_outcome(), ParameterOutcome::kNoAnswer);
 }
 
+TEST(ParameterClientTest, TellsARefusedWriteToFlashFromNoAnswer) {
+  ParameterClient client;
+  client.write_to_flash();
+  client.advance(Time{}, [](const rosflight::Message&) {});
+  client.take(rosflight::RosflightCmdAck{.command = rosflight::kWriteParameters, .success = 0});
+  EXPECT_EQ(client.write_outcome(), ParameterOutcome::kRefused);
+  EXPECT_TRUE(client.idle());
+}
+
 TEST(ParameterClientTest, PaysNoAttentionToValuesThatCannotBe) {
   ParameterClient client;
   client.take(rosflight::ParamValue{{1}, 5, 5, rosflight::field_of<16>("A"), 6}, Time{});

@@ -130,6 +130,44 @@ TEST(SerialFcuTest, AsksToWriteToFlashAsTheUsualCompanionDoes) {
   EXPECT_EQ(component, 1);
 }
 
+TEST(SerialFcuTest, FollowsAUnitWhoseSystemNumberIsSet) {
+  DeskLink link(0.2);
+  const auto ready = [&] { return link.fcu().connection().state() == ConnectionState::kReady; };
+  link.until(seconds(10), ready);
+  ParameterClient& client = link.fcu().connection().parameters();
+  ASSERT_EQ(client.set({"SYS_ID", kIntegerParameter, 9}), "");
+  link.until(seconds(5), [&] { return client.idle(); });
+  EXPECT_TRUE(client.failures().empty());
+  // WHEN more is asked of the unit THEN it is asked under its new number
+  ASSERT_EQ(client.set({"NUM_MOTORS", kIntegerParameter, 6}), "");
+  link.until(seconds(5), [&] { return client.idle(); });
+  EXPECT_EQ(link.firmware().parameters().integer(virtual_fcu::find_parameter("NUM_MOTORS")), 6);
+  // WHEN the line has been cut THEN the unit is met again under it
+  link.pair().hang_up();
+  link.pair().far().reopen();
+  link.tick();
+  ASSERT_FALSE(ready());
+  link.until(seconds(10), ready);
+  EXPECT_TRUE(ready());
+  EXPECT_EQ(client.find("SYS_ID")->bits, 9U);
+}
+
+TEST(SerialFcuTest, FollowsOnlyFramesThatCarryTheUnitsOwnNumber) {
+  transport::StreamPair pair;
+  SerialFcu fcu(pair.near());
+  fcu.advance(Time{});
+  const auto hear = [&](const rosflight::Message& message, std::uint8_t system) {
+    const rosflight::FrameBytes frame = rosflight::encode_frame(message, 0, {system, 250});
+    pair.far().write(std::span(frame.bytes).first(frame.size));
+    fcu.advance(Time{});
+    return fcu.connection().parameters().system();
+  };
+  EXPECT_EQ(hear(rosflight::Statustext{}, 77), 1) << "the low byte of a clock";
+  EXPECT_EQ(hear(rosflight::RosflightCmdAck{.command = 99}, 50), 1) << "the number of whoever asked";
+  EXPECT_EQ(hear(rosflight::Heartbeat{}, 2), 2);
+  EXPECT_EQ(hear(rosflight::SmallImu{}, 3), 3);
+}
+
 TEST(SerialFcuTest, StartsWithoutALineAndIsReadyWhenItComes) {
   DeskLink link;
   link.pair().hang_up();

@@ -54,6 +54,16 @@ Bytes every_byte() {
   return bytes;
 }
 
+/// What a pseudo-terminal says that cannot have this link.
+std::string refusal_of_link(const fs::path& link) {
+  try {
+    const PseudoTerminal terminal(link.string());
+    return "made";
+  } catch (const LinkError& error) {
+    return error.what();
+  }
+}
+
 /// A folder of this test's own.
 fs::path folder() {
   const testing::TestInfo* const info = testing::UnitTest::GetInstance()->current_test_info();
@@ -242,6 +252,40 @@ TEST(PseudoTerminalTest, DoesNotReplaceWhatIsNoLink) {
   std::ofstream(file) << "data";
   EXPECT_THROW(PseudoTerminal{file.string()}, LinkError);
   EXPECT_TRUE(fs::is_regular_file(file));
+}
+
+TEST(PseudoTerminalTest, DoesNotReplaceALinkToSomethingElse) {
+  const fs::path link = folder() / "unit";
+  for (const char* const target : {"/dev/null", "nowhere", "/dev/serial/by-id/somebodys"}) {
+    fs::remove(link);
+    fs::create_symlink(target, link);
+    EXPECT_THAT(refusal_of_link(link), HasSubstr(std::string("is a link to ") + target + ", which is no "));
+    EXPECT_EQ(fs::read_symlink(link), target);
+  }
+}
+
+TEST(PseudoTerminalTest, DoesNotReplaceTheLinkOfOneThatIsInUse) {
+  const fs::path link = folder() / "unit";
+  const PseudoTerminal first(link.string());
+  EXPECT_THAT(refusal_of_link(link), HasSubstr("is a link to " + first.device() + ", which process " +
+                                               std::to_string(getpid()) + " (transport_test) has; end that"));
+  EXPECT_EQ(fs::read_symlink(link), first.device());
+}
+
+TEST(PseudoTerminalTest, ReplacesTheLinkOfOneThatIsNoMore) {
+  const fs::path link = folder() / "unit";
+  std::string gone;
+  {
+    const PseudoTerminal other;
+    gone = other.device();
+  }
+  // Its number is free: the next one has it, or nobody.
+  for (const std::string& target : {gone, std::string("/dev/pts/999999")}) {
+    fs::remove(link);
+    fs::create_symlink(target, link);
+    const PseudoTerminal terminal(link.string());
+    EXPECT_EQ(fs::read_symlink(link), terminal.device());
+  }
 }
 
 TEST(PseudoTerminalTest, TakesItsLinkAwayAtTheEnd) {

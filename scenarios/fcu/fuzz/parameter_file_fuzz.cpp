@@ -19,13 +19,16 @@ std::vector<ParameterRecord> read(const MemoryFile& file) {
   return scenarios::read_parameter_file(file.path());
 }
 
-/// `file:line: what is wrong`
+/// `file:line:column: what is wrong`
 void expect_placed(const std::string& finding, const std::string& file) {
   require(finding.find('\n') == std::string::npos, "a finding is one line: " + finding);
   require(finding.starts_with(file + ":"), "a finding names its file: " + finding);
-  const std::string_view rest = std::string_view(finding).substr(file.size() + 1);
-  const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
-  require(digits > 0 && rest.substr(digits).starts_with(": "), "a finding names its line: " + finding);
+  std::string_view rest = std::string_view(finding).substr(file.size() + 1);
+  for (const char* const end : {":", ": "}) {
+    const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+    require(digits > 0 && rest.substr(digits).starts_with(end), "a finding names its place: " + finding);
+    rest.remove_prefix(digits + 1);
+  }
 }
 
 void expect_parameters(const std::vector<ParameterRecord>& records) {

@@ -38,6 +38,40 @@ inline Outcome run(const std::string& words) {
   return outcome;
 }
 
+/// The program on its way: its words are heard as they come.
+class Running {
+ public:
+  explicit Running(const std::string& words)
+      : pipe_(popen((std::string(IRONBIRD_PROGRAM) + " " + words + " 2>&1").c_str(), "r")) {}
+
+  /// Waits until it has said this. @return has it, before its end?
+  bool says(const std::string& words) {
+    while (outcome_.text.find(words) == std::string::npos) {
+      if (!listen()) return false;
+    }
+    return true;
+  }
+  /// Waits for its end.
+  Outcome end() {
+    while (listen()) {
+    }
+    const int status = pclose(pipe_);
+    outcome_.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome_;
+  }
+
+ private:
+  bool listen() {
+    std::array<char, 4096> part{};
+    const ssize_t count = read(fileno(pipe_), part.data(), part.size());
+    if (count > 0) outcome_.text.append(part.data(), static_cast<std::size_t>(count));
+    return count > 0;
+  }
+
+  FILE* pipe_;
+  Outcome outcome_;
+};
+
 /// Has a child come to its end? It is still there to be waited for.
 inline bool has_ended(pid_t child) {
   siginfo_t info{};
@@ -47,12 +81,15 @@ inline bool has_ended(pid_t child) {
 /// A unit served by another process for as long as this lives.
 class Server {
  public:
-  explicit Server(const std::string& link, const char* arm_at = "pilot.arm_at=\"1000 s\"") : link_(link) {
+  explicit Server(const std::string& link, const char* arm_at = "pilot.arm_at=\"1000 s\"",
+                  const char* setting = "seed=7")
+      : link_(link) {
     process_ = fork();
     if (process_ == 0) {
       (void)!freopen("/dev/null", "w", stderr);
       execl(IRONBIRD_PROGRAM, "ironbird", "fcu", "serve", kMission.c_str(), "--pty", link.c_str(), "--set",
-            arm_at, "--set", "pilot.take_off_at=\"1001 s\"", "--set", "duration=\"2000 s\"", nullptr);
+            arm_at, "--set", setting, "--set", "pilot.take_off_at=\"1001 s\"", "--set", "duration=\"2000 s\"",
+            nullptr);
       _exit(127);
     }
     for (int k = 0; k < 5000 && !fs::exists(link); ++k)

@@ -1,19 +1,25 @@
 // The program seen from outside: one process is a unit, others talk to it.
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "scenarios/fcu/test/fcu_program.hpp"
+#include "scenarios/fcu/unit_line.hpp"
 
 namespace ironbird::scenarios {
 namespace {
 
 using test::FcuProgramTest;
+using test::kMission;
 using test::Outcome;
 using test::run;
+using test::Running;
 using test::Server;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 TEST_F(FcuProgramTest, SaysWhatIsConnected) {
@@ -55,6 +61,28 @@ TEST_F(FcuProgramTest, SetsNothingOfAFileThatDoesNotFit) {
   EXPECT_THAT(run(fcu("params get RC_MAX_THR")).text, testing::Not(HasSubstr("0.5\n")));
 }
 
+TEST_F(FcuProgramTest, SetsNoValueOutsideTheFirmwaresTable) {
+  const Server server(link_);
+  const std::string file = (folder_ / "wild.yaml").string();
+  std::ofstream(file) << "- {name: RC_MAX_THR, type: 9, value: 0.5}\n"
+                         "- {name: FAILSAFE_THR, type: 9, value: 7.5}\n"
+                         "- {name: MOTOR_IDLE_THR, type: 9, value: .nan}\n";
+  Outcome outcome = run(fcu("params load " + file));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.text, file + ":2:40: FAILSAFE_THR = 7.5, must be between 0 and 1\n" + file +
+                              ":3:42: MOTOR_IDLE_THR = .nan, must be finite\n");
+  outcome = run(fcu("params set RC_MAX_THR 0.5 NUM_MOTORS 99999 PID_ROLL_RATE_P inf"));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.text,
+            "NUM_MOTORS = 99999, must be between 1 and 10\nPID_ROLL_RATE_P = inf, must be finite\n");
+  outcome = run(fcu("params set RC_MAX_THR 0.5 RC_MAX_THR 0.6"));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.text, "RC_MAX_THR: comes twice\n");
+  EXPECT_THAT(run(fcu("params get RC_MAX_THR")).text, testing::Not(HasSubstr(" 0.5\n")));
+  // What a unit has may be looked at, whatever it is.
+  EXPECT_THAT(run(fcu("params verify " + file)).text, HasSubstr("3 differences"));
+}
+
 TEST_F(FcuProgramTest, SetsNothingInAnArmedUnit) {
   const Server server(link_, "pilot.arm_at=\"0 s\"");
   ASSERT_NO_FATAL_FAILURE(wait_until_armed());
@@ -62,6 +90,74 @@ TEST_F(FcuProgramTest, SetsNothingInAnArmedUnit) {
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.text, HasSubstr("the unit does not report that it is disarmed; nothing was set"));
   EXPECT_THAT(run(fcu("params get RC_MAX_THR")).text, testing::Not(HasSubstr(" 0.5\n")));
+}
+
+/// Every element of both mixers, with values that they do not have.
+std::string written_mixers(const std::filesystem::path& file) {
+  std::ofstream text(file);
+  for (const char* const stem : {"SEC_MIXER_", "PRI_MIXER_"}) {
+    for (int k = 0; k < 100; ++k) {
+      text << "- {name: " << stem << k / 10 << "_" << k % 10 << ", type: 9, value: 0.12" << k << "}\n";
+    }
+  }
+  return file.string();
+}
+
+// So few orders arrive that two hundred take a quarter of a minute.
+constexpr const char* kSlowLine = "link.incoming.drop=0.7";
+
+TEST_F(FcuProgramTest, SaysWhatIsSetWhenAUnitStopsInTheMiddle) {
+  const Server server(link_, "pilot.arm_at=\"1000 s\"", kSlowLine);
+  Running load(fcu("params load " + written_mixers(folder_ / "mixers.yaml")));
+  EXPECT_TRUE(load.says("of 200 parameters are as wanted\n"));
+  const auto stopped = std::chrono::steady_clock::now();
+  kill(server.process(), SIGSTOP);
+  const Outcome outcome = load.end();
+  kill(server.process(), SIGCONT);
+  EXPECT_LT(std::chrono::steady_clock::now() - stopped, std::chrono::seconds(15));
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.text, HasSubstr("; the unit is silent, waiting for it\n"));
+  EXPECT_THAT(
+      outcome.text,
+      ContainsRegex("\nthe unit has fallen silent: [0-9]+ of 200 parameters are set, [0-9]+ are not"));
+  EXPECT_THAT(outcome.text, HasSubstr("\nPRI_MIXER_9_9    wanted 0.1299, the unit last said "));
+}
+
+TEST_F(FcuProgramTest, SaysWhatIsSetWhenAUnitIsArmedInTheMiddle) {
+  const Server server(link_, "pilot.arm_at=\"10 s\"", kSlowLine);
+  const Outcome outcome = run(fcu("params load " + written_mixers(folder_ / "mixers.yaml")));
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.text,
+              ContainsRegex("\nthe unit was armed: [0-9]+ of 200 parameters are set, [0-9]+ are not"));
+  EXPECT_THAT(outcome.text, HasSubstr("\nPRI_MIXER_9_9    wanted 0.1299, the unit last said "));
+}
+
+TEST_F(FcuProgramTest, FollowsAUnitToAnotherSystemNumber) {
+  const Server server(link_);
+  Outcome outcome = run(fcu("params set SYS_ID 2"));
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("as wanted, read back from the unit: 1 parameter"));
+  EXPECT_EQ(run(fcu("info")).code, 0);
+  outcome = run(fcu("params set SYS_ID 1 RC_MAX_THR 0.5"));
+  EXPECT_EQ(outcome.code, 0) << outcome.text;
+  EXPECT_THAT(run(fcu("params get SYS_ID")).text, HasSubstr(" 1\n"));
+}
+
+TEST_F(FcuProgramTest, TakesNobodysLinkAway) {
+  const Server server(link_);
+  const Outcome outcome = run("fcu serve " + kMission + " --pty " + link_ + " --duration 0.1");
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.text, testing::StartsWith(link_ + ": is a link to /dev/pts/"));
+  EXPECT_THAT(outcome.text,
+              HasSubstr(", which process " + std::to_string(server.process()) + " (ironbird) has; end that"));
+  EXPECT_EQ(run(fcu("info")).code, 0);
+}
+
+TEST_F(FcuProgramTest, TellsARefusalToKeepFromNoAnswer) {
+  using hil_bridge::ParameterOutcome;
+  EXPECT_THAT(why_not_kept(ParameterOutcome::kRefused),
+              HasSubstr("the unit refused to write them to its flash"));
+  EXPECT_THAT(why_not_kept(ParameterOutcome::kNoAnswer), HasSubstr("the unit did not confirm"));
 }
 
 TEST_F(FcuProgramTest, SaysWhatIsWrongWithALine) {
