@@ -57,7 +57,7 @@ void Ekf::set_attitude(const Vector3& theta) {
   P_.col(kPitch) *= -1.0;
 }
 
-EkfStepNoise Ekf::step_noise(double h) const {
+EkfStepNoise Ekf::step_noise(const Vector3& w_B, double h) const {
   const EkfNoiseParams& q = params().noise;
   const double scale = q.reference_scaling ? h * h : h;
   EkfStepNoise noise;
@@ -65,7 +65,7 @@ EkfStepNoise Ekf::step_noise(double h) const {
       q.roll_pitch, q.heading, q.gyro_bias, q.gyro_bias, q.gyro_bias;
   noise.direct *= scale;
   noise.accelerometer = square(q.accelerometer) * scale;
-  noise.gyro = square(q.gyro) * scale;
+  noise.gyro = (square(q.gyro) + square(q.gyro_per_rate) * (w_B - x_.gyro_bias_B).squaredNorm()) * scale;
   return noise;
 }
 
@@ -73,7 +73,7 @@ void Ekf::predict(const Vector3& f_B, const Vector3& w_B, double dt) {
   const EkfInput u{f_B, w_B, aiding().gravity};
   const int steps = params().propagation_steps;
   const double h = dt / steps;
-  const EkfStepNoise noise = step_noise(h);
+  const EkfStepNoise noise = step_noise(w_B, h);
   for (int i = 0; i < steps; ++i) {
     const EkfState before = x_;
     const EulerTrig trig_before = trig_;
