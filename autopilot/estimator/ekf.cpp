@@ -1,5 +1,6 @@
 #include "autopilot/estimator/ekf.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -103,12 +104,13 @@ void Ekf::correct_mag(const Vector3& m_B, Time now) {
   const MagModel model = ekf_mag(expected_field(m_B, down_B, innovation), trig_, wanted.declination);
   const double R = model.R(square(wanted.sigma), square(wanted.sigma_tilt));
   const Eigen::Matrix<double, 1, 3> H = model.H();
-  const double S = H * P_.block<3, 3>(kT, kT) * H.transpose() + R;
+  const double gate_R = model.R(square(wanted.sigma), square(std::min(wanted.sigma_tilt, wanted.gate_sigma)));
+  const double S = H * P_.block<3, 3>(kT, kT) * H.transpose() + gate_R;
   innovations_.heading = innovation;
-  const Verdict verdict = mag_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
+  const Verdict verdict = judge_mag(square(innovation) / S, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
-    set_heading(heading, R);
+    set_heading(heading, gate_R);
     return;
   }
   Update update;
