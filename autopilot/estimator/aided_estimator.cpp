@@ -87,12 +87,10 @@ void AidedEstimator::reset() {
 
 void AidedEstimator::begin(const StartState& found, Time now) {
   origin_ = found.origin;
-  accelerometer_offset_B_ = found.accelerometer_offset_B;
   rebuild_baro_model();
-  delay_line_.clear();
   heard_ = {now, now, now};
   trust_.begin(now);
-  start(found);
+  restart(found);
   running_ = true;
 }
 
@@ -261,6 +259,7 @@ bool AidedEstimator::has_stepped_back(const Vector3& as_told_N, const Vector3& v
 }
 
 void AidedEstimator::velocity_believed(Time now, double was_off) {
+  if (was_off > 0.0) heading_trust_.doubt();
   // In the meantime it may have been more than at the end.
   trust_.velocity_believed(now, std::max(2.0 * was_off, aiding().lost_speed), aiding().gnss.silence);
 }
@@ -300,6 +299,7 @@ void AidedEstimator::recover(Time now) {
 void AidedEstimator::restart(const StartState& again) {
   accelerometer_offset_B_ = again.accelerometer_offset_B;
   delay_line_.clear();
+  heading_trust_.doubt();
   start(again);
 }
 

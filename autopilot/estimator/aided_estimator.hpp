@@ -8,6 +8,7 @@
 #include "autopilot/estimator/estimator.hpp"
 #include "autopilot/estimator/fix_trust.hpp"
 #include "autopilot/estimator/gate.hpp"
+#include "autopilot/estimator/heading_trust.hpp"
 
 namespace ironbird::autopilot {
 
@@ -106,6 +107,12 @@ class AidedEstimator : public Estimator {
   void velocity_believed(Time now, double was_off = 0.0);
   void position_believed(Time now) { trust_.position_believed(now); }
 
+  /// What to do with a sample of the compass.
+  /// @param nis  normalised innovation squared
+  Verdict judge_mag(double nis, Time now) {
+    return heading_trust_.judge(gates_.mag, nis, aiding().mag, was_armed_, now);
+  }
+
   /// The fixes have disagreed for good. When Doppler says that it is not the filter that has moved, they are
   /// taken back by this much from now on, with doubt; before the first flight with the origin.
   /// @return false: the filter is to believe them
@@ -176,6 +183,7 @@ class AidedEstimator : public Estimator {
   Time previous_{0};
   std::optional<GnssObservation> last_fix_;
   FixTrust trust_;
+  HeadingTrust heading_trust_;
   Vector3 offset_N_ = Vector3::Zero();  // of the fixes, horizontal
   std::optional<Time> back_since_;      // the fixes agree without the offset
   int doubts_ = 0;

@@ -81,6 +81,7 @@ struct MagParams {
   double sigma = 0.01;
   double sigma_tilt = 0.02;
   double gate = 36.0;
+  double gate_sigma = 0.05;
   double persistence = 5.0;
   double silence = 0.5;
 
@@ -91,8 +92,12 @@ struct MagParams {
     visit("sigma", self.sigma, "1", "error of each component of the unit vector, 1 sigma", 0.0, 1.0);
     visit("sigma_tilt", self.sigma_tilt, "rad", "error of the heading beyond that, 1 sigma", 1e-5, 3.0);
     visit("gate", self.gate, "1", "greatest normalised innovation squared; 0: no gate", 0.0, 1e6);
-    visit("persistence", self.persistence, "s", "after so long a disagreement the filter is reset", 0.0,
-          600.0);
+    visit("gate_sigma", self.gate_sigma, "rad",
+          "error of the heading, 1 sigma, that the gate allows for at most, however little weight "
+          "sigma_tilt gives a sample",
+          1e-5, 3.0);
+    visit("persistence", self.persistence, "s",
+          "after so long a disagreement a heading that is in doubt is reset", 0.0, 600.0);
     visit("silence", self.silence, "s", "without a sample for this long: degraded", 0.0, 600.0);
   }
 };

@@ -1,5 +1,6 @@
 #include "autopilot/estimator/ekf.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -57,7 +58,7 @@ void Ekf::set_attitude(const Vector3& theta) {
   P_.col(kPitch) *= -1.0;
 }
 
-EkfStepNoise Ekf::step_noise(double h) const {
+EkfStepNoise Ekf::step_noise(const Vector3& w_B, double h) const {
   const EkfNoiseParams& q = params().noise;
   const double scale = q.reference_scaling ? h * h : h;
   EkfStepNoise noise;
@@ -65,7 +66,7 @@ EkfStepNoise Ekf::step_noise(double h) const {
       q.roll_pitch, q.heading, q.gyro_bias, q.gyro_bias, q.gyro_bias;
   noise.direct *= scale;
   noise.accelerometer = square(q.accelerometer) * scale;
-  noise.gyro = square(q.gyro) * scale;
+  noise.gyro = (square(q.gyro) + square(q.gyro_per_rate) * (w_B - x_.gyro_bias_B).squaredNorm()) * scale;
   return noise;
 }
 
@@ -73,7 +74,7 @@ void Ekf::predict(const Vector3& f_B, const Vector3& w_B, double dt) {
   const EkfInput u{f_B, w_B, aiding().gravity};
   const int steps = params().propagation_steps;
   const double h = dt / steps;
-  const EkfStepNoise noise = step_noise(h);
+  const EkfStepNoise noise = step_noise(w_B, h);
   for (int i = 0; i < steps; ++i) {
     const EkfState before = x_;
     const EulerTrig trig_before = trig_;
@@ -103,12 +104,13 @@ void Ekf::correct_mag(const Vector3& m_B, Time now) {
   const MagModel model = ekf_mag(expected_field(m_B, down_B, innovation), trig_, wanted.declination);
   const double R = model.R(square(wanted.sigma), square(wanted.sigma_tilt));
   const Eigen::Matrix<double, 1, 3> H = model.H();
-  const double S = H * P_.block<3, 3>(kT, kT) * H.transpose() + R;
+  const double gate_R = model.R(square(wanted.sigma), square(std::min(wanted.sigma_tilt, wanted.gate_sigma)));
+  const double S = H * P_.block<3, 3>(kT, kT) * H.transpose() + gate_R;
   innovations_.heading = innovation;
-  const Verdict verdict = mag_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
+  const Verdict verdict = judge_mag(square(innovation) / S, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
-    set_heading(heading, R);
+    set_heading(heading, gate_R);
     return;
   }
   Update update;

@@ -23,6 +23,7 @@ struct EkfNoiseParams {
   double gyro_bias = 1.0e-10;
   double accelerometer = 0.02;
   double gyro = 3.0e-4;
+  double gyro_per_rate = 0.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -38,6 +39,9 @@ struct EkfNoiseParams {
     visit("accelerometer", self.accelerometer, "m/s^2/sqrt(Hz)", "noise density of the accelerometer", 0.0,
           1e3);
     visit("gyro", self.gyro, "rad/s/sqrt(Hz)", "noise density of the gyro", 0.0, 1e3);
+    visit("gyro_per_rate", self.gyro_per_rate, "sqrt(s)",
+          "noise density that the gyro has beyond that per rate of turn, for axes askew and wrong in scale",
+          0.0, 10.0);
   }
 };
 
@@ -83,7 +87,7 @@ class Ekf : public Tunable<AidedEstimator, EkfParams> {
   void probe_filter(ProbeVisitor& visit) const override;
 
  private:
-  EkfStepNoise step_noise(double h) const;
+  EkfStepNoise step_noise(const Vector3& w_B, double h) const;
   void set_attitude(const Vector3& theta);
   void apply(const EkfState::Vector& correction);
   void set_heading(double heading, double variance);

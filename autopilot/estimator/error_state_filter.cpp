@@ -133,18 +133,18 @@ void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
   const ErrorMagModel model =
       error_state_mag(x_, expected_field(field_B, down_B, innovation), wanted.declination);
   // Noise of the unit vector turns the azimuth by itself over the horizontal part.
-  const double R =
-      square(wanted.sigma) / std::max(model.levelness, kLeastLevelness) + square(wanted.sigma_tilt);
+  const double noise = square(wanted.sigma) / std::max(model.levelness, kLeastLevelness);
+  const double R = noise + square(wanted.sigma_tilt);
+  const double gate_R = noise + square(std::min(wanted.sigma_tilt, wanted.gate_sigma));
   const ErrorState::Vector PCt = P_.middleCols<3>(kT).lazyProduct(model.H_attitude.transpose()) +
                                  P_.middleCols<3>(kM).lazyProduct(model.H_bias.transpose());
   const double CPCt = model.H_attitude.dot(PCt.segment<3>(kT)) + model.H_bias.dot(PCt.segment<3>(kM));
   innovations_.heading = innovation;
-  const Verdict verdict =
-      mag_gate().judge(square(innovation) / (CPCt + R), wanted.gate, wanted.persistence, now);
+  const Verdict verdict = judge_mag(square(innovation) / (CPCt + gate_R), now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
     x_.q_NB = (Quaternion(Eigen::AngleAxisd(innovation, Vector3::UnitZ())) * x_.q_NB).normalized();
-    P_.block<3, 3>(kT, kT) += R * down_B * down_B.transpose();
+    P_.block<3, 3>(kT, kT) += gate_R * down_B * down_B.transpose();
     return;
   }
   Update update;

@@ -244,6 +244,31 @@ TEST(EkfTest, KeepsItsCovarianceSymmetricAndPositive) {
   expect_symmetric_positive(filter.covariance());
 }
 
+/// How many velocities the filter refuses in a minute with a gyro whose axes are turned by 0.1 rad about Bx.
+double refused_with_a_gyro_askew(double gyro_per_rate) {
+  FakeSensors sensors(3);
+  sensors.errors.gnss_velocity = 0.05;
+  sensors.path.pace = 2.0;
+  EkfParams params;
+  params.noise.velocity = params.noise.velocity_down = 1.0e-4;
+  params.noise.gyro_per_rate = gyro_per_rate;
+  params.aiding.mag.declination = sensors.declination;
+  Ekf filter;
+  filter.set_params(params);
+  while (sensors.time() < 60.0) {
+    SensorFrame frame = sensors.next();
+    frame.imu.w_NB_B += Vector3(0.1, 0.0, 0.0).cross(frame.imu.w_NB_B);
+    filter.run(frame);
+  }
+  return probed(filter, "rejected_velocity");
+}
+
+TEST(EkfTest, BelievesDopplerWhileAGyroThatIsAskewTurns) {
+  EXPECT_GT(refused_with_a_gyro_askew(0.0), 0.0);
+  constexpr double kAskewForASecond = 0.1;  // sqrt(s), 0.1 rad sqrt(1 s)
+  EXPECT_EQ(refused_with_a_gyro_askew(kAskewForASecond), 0.0);
+}
+
 TEST(ErrorStateFilterTest, KeepsItsCovarianceSymmetricAndPositive) {
   FakeSensors sensors(3);
   ErrorStateFilter filter;

@@ -22,6 +22,21 @@ inline constexpr double kGoodAngle = 0.03;    // rad
 
 enum class Kind { kEkf, kErrorState };
 
+/// The number that the filter tells under this name; NaN when it tells none.
+inline double probed(const AidedEstimator& filter, const std::string& wanted) {
+  struct Finder final : ProbeVisitor {
+    std::string wanted;
+    double found = kNan;
+    void operator()(std::string_view name, double value, std::string_view) override {
+      if (name == wanted) found = value;
+    }
+    void operator()(std::string_view, const Vector3&, std::string_view) override {}
+  } finder;
+  finder.wanted = wanted;
+  filter.probe(finder);
+  return finder.found;
+}
+
 class FilterTest : public ::testing::TestWithParam<Kind> {
  protected:
   FilterTest() { make(AidingParams{}, true); }
@@ -89,19 +104,7 @@ class FilterTest : public ::testing::TestWithParam<Kind> {
     EXPECT_LT(angle_error(), kGoodAngle);
   }
 
-  double probed(const std::string& wanted) const {
-    struct Finder final : ProbeVisitor {
-      std::string wanted;
-      double found = kNan;
-      void operator()(std::string_view name, double value, std::string_view) override {
-        if (name == wanted) found = value;
-      }
-      void operator()(std::string_view, const Vector3&, std::string_view) override {}
-    } finder;
-    finder.wanted = wanted;
-    estimator->probe(finder);
-    return finder.found;
-  }
+  double probed(const std::string& wanted) const { return autopilot::probed(*estimator, wanted); }
 
   Vector3 probed_vector(const std::string& wanted) const {
     struct Finder final : ProbeVisitor {

@@ -79,6 +79,55 @@ TEST_P(FilterTest, KeepsTheVelocityOverGroundWhenItsHeadingIsReset) {
   EXPECT_LT(probed("nis_velocity"), GnssParams{}.velocity_gate);
 }
 
+TEST_P(FilterTest, LeavesOutACompassThatStepsAwayInFlight) {
+  for (const double step : {0.6, -1.6, 3.0}) {
+    // GIVEN a heading with which the compass has agreed
+    sensors = FakeSensors(7);
+    make(AidingParams{}, true);
+    fly_armed();
+    const double before = probed("resets");
+    // WHEN the compass steps away, for much longer than its persistence
+    sensors.errors.compass = step;
+    fly(30.0);
+    // THEN gyro and Doppler carry the heading, and the estimate says what is wrong
+    EXPECT_EQ(x.health, Health::kDegraded) << step;
+    EXPECT_EQ(probed("resets"), before) << step;
+    EXPECT_LT(angle_error(), kGoodAngle) << step;
+    EXPECT_LT(speed_error(), kGoodSpeed) << step;
+    // AND the compass is heard again when it is back
+    sensors.errors.compass = 0.0;
+    fly(2.0);
+    expect_good();
+  }
+}
+
+TEST_P(FilterTest, LeavesOutACompassThatItGivesLittleWeight) {
+  AidingParams aiding;
+  aiding.mag.sigma_tilt = 1.0;  // without a sigma of its own the gate would let everything pass
+  make(aiding, false);
+  fly_armed();
+  sensors.errors.compass = 1.5;
+  fly(30.0);
+  EXPECT_EQ(x.health, Health::kDegraded);
+  EXPECT_LT(angle_error(), kGoodAngle);
+}
+
+TEST_P(FilterTest, BelievesTheCompassWhenDopplerContradictsTheHeadingToo) {
+  fly_armed();
+  // WHEN the gyro tells of a quarter of a turn that was none
+  const double end = sensors.time() + 0.5;
+  while (sensors.time() < end) {
+    SensorFrame frame = sensors.next();
+    frame.imu.w_NB_B += 3.0 * sensors.truth().R_NB.row(2).transpose();
+    step(frame);
+  }
+  EXPECT_GT(angle_error(), 1.0);
+  // THEN the heading is found again
+  fly(40.0);
+  EXPECT_LT(angle_error(), 2.0 * kGoodAngle);
+  EXPECT_LT(speed_error(), 2.0 * kGoodSpeed);
+}
+
 TEST_P(FilterTest, DoesNotFollowAPredecessorWithoutAnOriginInFlight) {
   Signals signals;
   signals.flight.phase = FlightPhase::kHold;
