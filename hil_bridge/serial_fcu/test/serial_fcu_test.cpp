@@ -73,7 +73,7 @@ TEST(SerialFcuTest, DropsWholeFramesWhenTheLineTakesNoMore) {
 // They end up on a terminal, in a log and in JSON.
 TEST(SerialFcuTest, LetsNoBytesThroughThatAreNoText) {
   transport::StreamPair pair(4096);
-  SerialFcu fcu(pair.near(), {.synchronise = false, .download = false});
+  SerialFcu fcu(pair.near(), {.synchronise = false});
   fcu.advance(Time{});
   std::uint8_t sequence = 0;
   const auto say = [&](const rosflight::Message& message) {
@@ -82,7 +82,8 @@ TEST(SerialFcuTest, LetsNoBytesThroughThatAreNoText) {
   };
   say(rosflight::RosflightVersion{rosflight::field_of<50>("v2.0.1\xFF")});
   say(rosflight::Statustext{.text = rosflight::field_of<50>("\033[2Jhello")});
-  say(rosflight::ParamValue{.param_count = 333, .param_id = rosflight::field_of<16>("A\nB")});
+  say(rosflight::ParamValue{
+      .param_count = 333, .param_id = rosflight::field_of<16>("A\nB"), .param_type = kIntegerParameter});
   fcu.advance(Time{1});
   EXPECT_EQ(fcu.connection().version(), "v2.0.1?");
   std::vector<Arrival> arrivals;
@@ -90,7 +91,9 @@ TEST(SerialFcuTest, LetsNoBytesThroughThatAreNoText) {
   ASSERT_EQ(arrivals.size(), 3U);
   const auto said = std::get<rosflight::Statustext>(arrivals[1].message);
   EXPECT_EQ(rosflight::text_of(said.text), "?[2Jhello");
-  EXPECT_EQ(fcu.connection().parameters().known().front().name, "A?B");
+  const auto known = fcu.connection().parameters().known();
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known.front().name, "A?B");
 }
 
 TEST(SerialFcuTest, SendsNothingThatActsWithoutAGate) {
