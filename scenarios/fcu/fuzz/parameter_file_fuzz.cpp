@@ -22,6 +22,7 @@ std::vector<ParameterRecord> read(const MemoryFile& file) {
 /// `file:line:column: what is wrong`
 void expect_placed(const std::string& finding, const std::string& file) {
   require(finding.find('\n') == std::string::npos, "a finding is one line: " + finding);
+  if (finding.ends_with(" findings more")) return;  // of a file that is wrong throughout
   require(finding.starts_with(file + ":"), "a finding names its file: " + finding);
   std::string_view rest = std::string_view(finding).substr(file.size() + 1);
   for (const char* const end : {":", ": "}) {
