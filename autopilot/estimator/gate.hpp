@@ -49,6 +49,9 @@ class Gate {
     return Verdict::kReset;
   }
 
+  /// What was refused before counts no more.
+  void restart() { disagreeing_ = false; }
+
   double nis() const { return nis_; }
   bool disagreeing() const { return disagreeing_; }
   int rejected() const { return rejected_; }

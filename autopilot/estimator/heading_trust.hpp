@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <utility>
 
 #include "autopilot/estimator/aiding_params.hpp"
 #include "autopilot/estimator/gate.hpp"
@@ -13,12 +14,16 @@ namespace ironbird::autopilot {
 class HeadingTrust {
  public:
   /// The heading was sought anew, or Doppler has contradicted the filter for good.
-  void doubt() { proven_ = false; }
+  void doubt() {
+    proven_ = false;
+    counts_anew_ = true;
+  }
 
   /// What to do with a sample of the compass.
   /// @param nis  normalised innovation squared
   /// @param flown  was armed; before, who carries the vehicle past iron gets the compass's heading
   Verdict judge(Gate& gate, double nis, const MagParams& wanted, bool flown, Time now) {
+    if (std::exchange(counts_anew_, false)) gate.restart();
     constexpr double kForever = std::numeric_limits<double>::infinity();
     const double persistence = flown && proven_ ? kForever : wanted.persistence;
     const Verdict verdict = gate.judge(nis, wanted.gate, persistence, now);
@@ -27,7 +32,8 @@ class HeadingTrust {
   }
 
  private:
-  bool proven_ = false;  // a compass has agreed with it
+  bool proven_ = false;       // a compass has agreed with it
+  bool counts_anew_ = false;  // what was refused while it was proven is no sign against it
 };
 
 }  // namespace ironbird::autopilot

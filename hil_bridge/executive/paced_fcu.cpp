@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "hil_bridge/transport/machine_clock.hpp"
 
@@ -16,20 +17,25 @@ PacedFcu::PacedFcu(Fcu& fcu, double time_scale) : fcu_(fcu), time_scale_(time_sc
   throw std::invalid_argument("time_scale = " + std::to_string(time_scale) + ", must be between 0.001 and 1");
 }
 
-Time PacedFcu::wait(Time now) {
+void PacedFcu::sleep_until(Time now) {
   const Time run(std::llround(static_cast<double>(now.count()) / time_scale_));
   if (zero_ == Time::min()) zero_ = machine_time() - run;
   transport::sleep_until(zero_ + run);
   // Who is stopped is mostly stopped while it sleeps.
   const Time behind = machine_time() - (zero_ + run);
-  if (behind <= kGivenUp) return Time::zero();
+  if (behind <= kGivenUp) return;
   zero_ += behind;
   lost_ += behind;
-  return Time(std::llround(static_cast<double>(behind.count()) * time_scale_));
+  unseen_ += Time(std::llround(static_cast<double>(behind.count()) * time_scale_));
+}
+
+Time PacedFcu::wait(Time now) {
+  sleep_until(now);
+  return std::exchange(unseen_, Time::zero());
 }
 
 void PacedFcu::advance(Time now) {
-  wait(now);
+  sleep_until(now);
   fcu_.advance(now);
 }
 

@@ -21,8 +21,8 @@ class PacedFcu final : public Fcu {
   /// @throws std::invalid_argument naming value and bound
   PacedFcu(Fcu& fcu, double time_scale);
 
-  /// Waits until it is time. @return what was lost just now, because the loop came too late, of the run's
-  /// time
+  /// Waits until it is time. @return what was lost since the last call, because the loop came too late, of
+  /// the run's time
   Time wait(Time now);
   void advance(Time now) override;
   void receive(std::vector<Arrival>& out) override { fcu_.receive(out); }
@@ -32,10 +32,13 @@ class PacedFcu final : public Fcu {
   Time lost() const { return lost_; }
 
  private:
+  void sleep_until(Time now);
+
   Fcu& fcu_;
   double time_scale_;
   Time zero_ = Time::min();  // of the run, on the clock of the wall
   Time lost_{};
+  Time unseen_{};  // of what was lost, of the run's time
 };
 
 }  // namespace ironbird::hil_bridge

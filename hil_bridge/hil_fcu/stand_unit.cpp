@@ -9,7 +9,6 @@ namespace ironbird::hil_bridge {
 void StandUnit::advance(Time now) {
   now_ = now;
   unit_.advance(now);
-  if (motors_) motors_->step(now);
 }
 
 void StandUnit::receive(std::vector<Arrival>& out) {

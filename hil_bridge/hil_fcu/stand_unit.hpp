@@ -12,7 +12,8 @@
 namespace ironbird::hil_bridge {
 
 /// A unit whose outputs turn real motors on a stand, too: what OUTPUT_RAW tells is what they are to do. The
-/// gate of the bus decides whether they do it.
+/// gate of the bus decides whether they do it; who keeps the gate steps them, after it has looked at
+/// everything.
 class StandUnit final : public Fcu {
  public:
   /// @param unit    as it is reached; outlives this

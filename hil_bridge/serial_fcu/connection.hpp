@@ -97,9 +97,9 @@ class Connection {
   }
   /// Notes the unit's clock. One that starts anew is a unit that has booted.
   void hear(Time fcu, Time now);
-  /// Finds the state that what is known adds up to.
   /// In which way this is no ROSflight 2.0 unit; empty: in none that is known.
   std::string what_is_other() const;
+  /// Finds the state that what is known adds up to.
   void judge();
 
   ConnectionConfig config_;

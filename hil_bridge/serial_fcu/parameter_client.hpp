@@ -75,6 +75,8 @@ class ParameterClient {
   std::vector<ParameterRecord> known() const;
   std::optional<ParameterRecord> find(std::string_view name) const;
 
+  /// What is not set yet stays as it is.
+  void forget_sets() { sets_.clear(); }
   /// Is nothing under way?
   bool idle() const { return sets_.empty() && write_ != ParameterOutcome::kPending; }
   /// Sets that did not come to be, with the reason; oldest first.

@@ -33,8 +33,9 @@ Verdict fly_simulated(const RunJob& job, const autopilot::Modules& modules, RunL
     std::snprintf(text, sizeof text, "%5.1f s flown, %4.0f x real time", progress.simulated,
                   elapsed > 0.0 ? progress.simulated / elapsed : 0.0);
     listener.progress({job.name.text(), progress.simulated, progress.expected_end, text});
-    return !interrupt_requested();
+    return true;
   };
+  options.stop_wanted = interrupt_requested;
   Bench bench(*job.loaded, modules, std::move(options));
   Verdict verdict = bench.fly();
   interrupted = bench.interrupted();

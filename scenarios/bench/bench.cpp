@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scenarios/bench/check_rules.hpp"
+#include "scenarios/bench/event_names.hpp"
 #include "scenarios/bench/expected_end.hpp"
 #include "scenarios/bench/hil_rig.hpp"
 #include "scenarios/bench/make_guard.hpp"
@@ -46,7 +47,9 @@ Bench::Bench(const LoadedScenario& loaded, const autopilot::Modules& modules, Be
   if (!options_.log_file.empty()) wire_log();
 }
 
-Bench::~Bench() = default;
+Bench::~Bench() {
+  close_gate();
+}
 
 void Bench::wire_log() {
   log_ = std::make_unique<FlightLog>(
@@ -143,6 +146,10 @@ Verdict Bench::fly() {
   const double expected = expected_end(loaded_);
   Time next_progress{0};
   while (!ended_) {
+    if (options_.stop_wanted && options_.stop_wanted()) {
+      interrupted_ = true;
+      break;
+    }
     const Time now = tick();
     if (now >= next_progress && options_.on_progress) {
       next_progress += kProgressPeriod;
@@ -162,6 +169,9 @@ Bench::Time Bench::tick() {
   do_what_is_due(lockstep_->now());
   const bool in_time = !rig_ || rig_->wait_for(lockstep_->now() + scenario_.fcu.tick);
   const Time now = lockstep_->tick(in_time);
+  if (rig_ && rig_->stand() != nullptr) rig_->stand()->step(now);
+  if (!in_time)
+    broken_promises_.emplace_back("the bench stood still for longer than half a second of the run");
   watch(now);
   watch_link(now);
   judge_->observe(now);
@@ -186,8 +196,10 @@ void Bench::watch(Time now) {
 /// The way up to live is no news in a simulation; a kill is.
 void Bench::watch_interlock(Time now) {
   const bool killed = guard_->status().state == hil_bridge::InterlockState::kKilled;
-  if (killed && !killed_) judge_->event(now, "interlock", "killed: " + std::string(guard_->status().why));
+  if (killed && !killed_) judge_->event(now, "killed", std::string(guard_->status().why));
   killed_ = killed;
+  // An operator's word counts once; the simulated pilot's stands until they disarm.
+  if (pilot() == nullptr && guard_->status().state == hil_bridge::InterlockState::kLive) guard_->want({});
 }
 
 void Bench::watch_link(Time now) {
@@ -210,13 +222,13 @@ void Bench::watch_stand(Time now) {
   for (std::size_t motor = 0; motor < scenario_.vehicle.rotors.size(); ++motor) {
     if (motors[motor].ready == stand_ready_[motor]) continue;
     stand_ready_[motor] = motors[motor].ready;
-    judge_->event(now, "stand",
-                  "motor " + std::to_string(motor) + (motors[motor].ready ? " is ready" : " is not ready"));
+    judge_->event(now, "stand", stand_event(motor, motors[motor].ready));
   }
 }
 
-/// Before the paper work: the motors of a stand get their zeros now.
+/// Before the paper work, and whatever ended the run: the motors of a stand get their zeros now.
 void Bench::close_gate() {
+  if (std::exchange(closed_, true)) return;
   guard_->close(lockstep_->now());
   if (rig_ && rig_->stand() != nullptr) rig_->stand()->step(lockstep_->now());
 }

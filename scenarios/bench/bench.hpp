@@ -47,6 +47,7 @@ struct Progress {
 struct BenchOptions {
   std::filesystem::path log_file;                    ///< empty: no log
   std::function<bool(const Progress&)> on_progress;  ///< called every simulated second; false: stop the run
+  std::function<bool()> stop_wanted;                 ///< asked in every tick, when there is one
   bool released = false;  ///< the operator has said so, of a unit at the other end of a line
 };
 
@@ -131,6 +132,7 @@ class Bench {
   std::vector<std::string> broken_promises_;
   std::size_t published_events_ = 0;
   bool killed_ = false;
+  bool closed_ = false;
   bool ended_ = false;
   bool interrupted_ = false;
 };

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kWaypoint = "waypoint_";
 /// Its text says why: a check names the kind.
-constexpr std::string_view kInterlock = "interlock";
+constexpr std::string_view kKilled = "killed";
 /// A return to launch is a route of two waypoints of its own.
 constexpr std::size_t kReturnWaypoints = 2;
 
@@ -58,6 +58,10 @@ std::size_t reachable_waypoints(const Scenario& scenario) {
          kReturnWaypoints * times(OperatorWish::kReturnToLaunch);
 }
 
+std::string stand_event(std::size_t motor, bool ready) {
+  return "motor " + std::to_string(motor) + (ready ? " is ready" : " is not ready");
+}
+
 EventNames::EventNames(const Scenario& scenario) {
   if (!scenario.cyclic) waypoints_ = reachable_waypoints(scenario);
   add_flight(scenario);
@@ -76,6 +80,7 @@ void EventNames::add_flight(const Scenario& scenario) {
       names_.push_back({"can", std::string(name_of(event))});
     }
   }
+  if (!scenario.fcu.stand.empty()) add_stand(scenario);
   if (!somebody_arms(scenario)) return;
   names_.push_back({"arming", "armed"});
   names_.push_back({"arming", "unarmed"});
@@ -84,6 +89,16 @@ void EventNames::add_flight(const Scenario& scenario) {
   for (const auto& [value, name] : enumerators(autopilot::PhaseCause{}))
     names_.push_back({"cause", std::string(name)});
   if (scenario.pilot.automatic) names_.push_back({"request", "take_off"});
+}
+
+void EventNames::add_stand(const Scenario& scenario) {
+  for (std::size_t kind = 0; kind < hil_bridge::transport::kBusEventKinds; ++kind) {
+    const auto event = static_cast<hil_bridge::transport::BusEventKind>(kind);
+    names_.push_back({"stand", std::string(name_of(event))});
+  }
+  for (std::size_t motor = 0; motor < scenario.vehicle.rotors.size(); ++motor) {
+    for (const bool ready : {true, false}) names_.push_back({"stand", stand_event(motor, ready)});
+  }
 }
 
 void EventNames::add_waypoints(const Scenario& scenario) {
@@ -135,7 +150,7 @@ bool EventNames::is_waypoint(std::string_view name) const {
 
 bool EventNames::known(const std::string& name, Waiting waiting) const {
   const auto is_name = [&](std::string_view one) { return one == name; };
-  const bool is_kind = std::ranges::any_of(kPositionEvents, is_name) || name == kInterlock;
+  const bool is_kind = std::ranges::any_of(kPositionEvents, is_name) || name == kKilled;
   if (waiting == Waiting::kCheck && is_kind) return true;
   if (name.starts_with("fcu:") || name.starts_with("refused:") || is_waypoint(name)) return true;
   return std::any_of(names_.begin(), names_.end(), [&](const Name& n) {
@@ -147,7 +162,7 @@ std::vector<std::string> EventNames::spoken(Waiting waiting) const {
   std::vector<std::string> all;
   if (waiting == Waiting::kCheck) {
     all.assign(kPositionEvents.begin(), kPositionEvents.end());
-    all.emplace_back(kInterlock);
+    all.emplace_back(kKilled);
   }
   for (const Name& name : names_) {
     // What begins and what ends a fault have one text: with its kind the end is told from the beginning.

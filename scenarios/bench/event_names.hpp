@@ -20,6 +20,9 @@ std::size_t reachable_waypoints(const Scenario& scenario);
 /// The most waypoints that the route of a run of this scenario can have at once.
 std::size_t longest_route(const Scenario& scenario);
 
+/// What a run says when a motor controller on the stand begins to report, or falls silent.
+std::string stand_event(std::size_t motor, bool ready);
+
 /// Every name by which an event of a run of this scenario can be called, known before it is flown.
 ///
 /// Beside the scenario's own events these are phases, arming, health, ground contact and waypoints. What the
@@ -41,6 +44,7 @@ class EventNames {
   };
 
   void add_flight(const Scenario& scenario);
+  void add_stand(const Scenario& scenario);
   void add_waypoints(const Scenario& scenario);
   void add_own(const Scenario& scenario);
   void add_deed(const EventConfig& event);

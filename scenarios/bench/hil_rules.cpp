@@ -8,6 +8,8 @@ namespace {
 
 const std::string kRemedy = "; reach the unit over a line: fcu.kind = \"virtual_serial\" or \"hil\"";
 
+constexpr double kSlowestStand = 0.1;  // limits on commands count the run's time
+
 class HilRules {
  public:
   explicit HilRules(const LoadedScenario& loaded) : loaded_(loaded), fcu_(loaded.scenario.fcu) {}
@@ -59,6 +61,8 @@ class HilRules {
     } else if (fcu_.motors != kOutputRaw) {
       report(shown +
              "a unit with motors on a bus commands them itself; it belongs to fcu.motors = \"output_raw\"");
+    } else if (fcu_.time_scale < kSlowestStand) {
+      report("fcu.time_scale: real motors know the clock only; with fcu.stand it must be at least 0.1");
     }
   }
 

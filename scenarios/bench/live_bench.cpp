@@ -143,7 +143,11 @@ void LiveBench::watch_interlock(Time now) {
   if (status.state == state_) return;
   state_ = status.state;
   state_since_ = now;
-  judge_->event(now, "interlock", std::string(name_of(state_)) + ": " + std::string(status.why));
+  if (state_ == InterlockState::kKilled) {
+    judge_->event(now, "killed", std::string(status.why));
+  } else {
+    judge_->event(now, "interlock", std::string(name_of(state_)) + ": " + std::string(status.why));
+  }
   was_verified_ = was_verified_ || state_ == InterlockState::kVerified;
   if (state_ == InterlockState::kLive && !live_since_) live_since_ = now;
   if (state_ == InterlockState::kKilled) {

@@ -6,7 +6,6 @@
 
 #include "hil_bridge/transport/byte_stream.hpp"
 #include "scenarios/app/interrupt.hpp"
-#include "scenarios/bench/run_time.hpp"
 
 namespace ironbird::scenarios {
 
@@ -133,8 +132,9 @@ std::vector<ParameterDifference> wanted_changes(const std::vector<ParameterRecor
 }
 
 PushResult push_parameters(const std::vector<ParameterRecord>& wanted, UnitOnLine& unit) {
-  const ParameterClient& client = unit.connection().parameters();
+  ParameterClient& client = unit.connection().parameters();
   std::string broken_off = set_all(wanted, unit);
+  if (!broken_off.empty()) client.forget_sets();  // it may be disarmed again while it is read
   // Nothing more is heard of a unit that is silent; an armed one still answers.
   std::vector<ParameterRecord> told = client.known();
   if (broken_off.empty() || broken_off == kArmed) {

@@ -63,6 +63,10 @@ TEST(PacedFcuTest, SaysWhatItHasLostInTheRunsTime) {
   std::this_thread::sleep_for(PacedFcu::kGivenUp + milliseconds(100));
   EXPECT_GE(fcu.wait(milliseconds(10)), PacedFcu::kGivenUp / 2);
   EXPECT_EQ(fcu.wait(milliseconds(10)), Time::zero()) << "once";
+  idle.slow = PacedFcu::kGivenUp + milliseconds(100);
+  fcu.advance(milliseconds(10));
+  fcu.advance(milliseconds(15));
+  EXPECT_GE(fcu.wait(milliseconds(20)), PacedFcu::kGivenUp / 2) << "also what was lost while it advanced";
 }
 
 TEST(PacedFcuTest, RefusesToRunFasterThanTheClock) {

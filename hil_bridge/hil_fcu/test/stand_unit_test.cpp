@@ -26,6 +26,7 @@ class StandUnitTest : public testing::Test {
       stand_.advance(now_);
       heard_.clear();
       stand_.receive(heard_);
+      if (stand_.motors() != nullptr) stand_.motors()->step(now_);
       all_heard_ += heard_.size();
       bus_.advance(now_ + kTick);
       for (std::size_t motor = 0; motor < kSpeeds.size(); ++motor) readings_[motor].speed = kSpeeds[motor];

@@ -46,8 +46,19 @@ TEST(EventNamesTest, KnowsTheEventsOfThePosition) {
 }
 
 TEST(EventNamesTest, LetsAKillBeCheckedByItsKind) {
-  EXPECT_EQ(EventNames(mission(3)).complaint("interlock", Waiting::kCheck), "");
-  EXPECT_NE(of_deed(mission(3), "interlock"), "") << "its text says why";
+  EXPECT_EQ(EventNames(mission(3)).complaint("killed", Waiting::kCheck), "");
+  EXPECT_NE(of_deed(mission(3), "killed"), "") << "its text says why";
+}
+
+TEST(EventNamesTest, KnowsWhatHappensOnAStand) {
+  Scenario scenario = mission(3);
+  EXPECT_NE(EventNames(scenario).complaint("stand:bus-off", Waiting::kCheck), "");
+  scenario.fcu.stand = "can:can0";
+  scenario.vehicle.rotors.resize(4);
+  for (const char* name : {"stand", "stand:bus-off", "motor 3 is ready", "stand:motor 0 is not ready"}) {
+    EXPECT_EQ(EventNames(scenario).complaint(name, Waiting::kCheck), "") << name;
+  }
+  EXPECT_NE(EventNames(scenario).complaint("motor 4 is ready", Waiting::kCheck), "");
 }
 
 TEST(EventNamesTest, CountsTheWaypointsThatThereCanBe) {

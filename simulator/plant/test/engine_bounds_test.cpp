@@ -47,7 +47,6 @@ class OdeInSubSteps final : public Plant {
 
 struct SubSteps {
   static constexpr const char* kName = "SubSteps";
-  static constexpr double kFinest = 0.5e-3;
   static constexpr double kLeastOrder = 0.9;
   static constexpr double kMostOrder = 1.1;
   static constexpr double kFlightPosition = 1e-3;
