@@ -6,7 +6,7 @@
 namespace ironbird::hil_bridge {
 
 bool override_mapped(const ParameterClient& parameters) {
-  return override_mapped([&](std::string_view name) {
+  return switches_mapped([&](std::string_view name) {
     const auto record = parameters.find(name);
     return record ? std::bit_cast<std::int32_t>(record->bits) : -1;
   });
@@ -57,11 +57,7 @@ void LineUnitWatch::compare() {
 }
 
 std::vector<ParameterDifference> LineUnitWatch::different() const {
-  std::vector<ParameterDifference> found;
-  for (ParameterDifference& difference : differences(wanted_, fcu_.connection().parameters().known())) {
-    if (difference.one) found.push_back(std::move(difference));
-  }
-  return found;
+  return not_as_wanted(wanted_, fcu_.connection().parameters().known());
 }
 
 }  // namespace ironbird::hil_bridge

@@ -20,13 +20,14 @@ inline constexpr int kLastSwitchChannel = 23;  ///< of a frame of the radio
 /// does not hear. @param parameter  gives an integer parameter of the unit by its name, -1 when it is not
 /// known
 template <class Parameter>
-bool override_mapped(Parameter&& parameter) {
+bool switches_mapped(Parameter&& parameter) {
   return std::all_of(kOverrideSwitches.begin(), kOverrideSwitches.end(), [&](std::string_view name) {
     const int channel = parameter(name);
     return channel >= kFirstSwitchChannel && channel <= kLastSwitchChannel &&
            channel < parameter("RC_NUM_CHN");
   });
 }
+/// The same, of a unit that has told its parameters.
 bool override_mapped(const ParameterClient& parameters);
 
 /// Finds out, of a unit, what the interlock wants to know of it.

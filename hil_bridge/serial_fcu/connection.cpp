@@ -33,6 +33,12 @@ bool is_second_version(std::string_view text) {
   return !has_major || text.substr(0, digits) == "2";
 }
 
+bool mixes_wrongly(std::string_view text) {
+  constexpr std::string_view kFirst = "2.0.0";
+  if (text.starts_with('v')) text.remove_prefix(1);
+  return text.starts_with(kFirst) && (text.size() == kFirst.size() || text[kFirst.size()] == '-');
+}
+
 }  // namespace
 
 std::string_view name_of(ConnectionState state) {
@@ -117,6 +123,8 @@ std::string Connection::what_is_other() const {
            " of MAVLink's dialects, ROSflight 2.0 has " + std::to_string(rosflight::kDialectVersion);
   }
   if (!is_second_version(version_)) return "the unit is of another version than ROSflight 2.0";
+  if (mixes_wrongly(version_))
+    return "the unit mixes the companion's commands by the mixer that is not selected, as 2.0.0 does";
   return "";
 }
 
@@ -125,8 +133,12 @@ void Connection::judge() {
   if (const std::string other = what_is_other(); !other.empty()) {
     state_ = ConnectionState::kRefused;
     refusal_ = other + (version_.empty() ? "" : "; it calls itself " + version_) +
-               "; flash a firmware of version 2.0";
+               "; flash a firmware of version 2.0.1 or later";
     return;
+  }
+  if (state_ == ConnectionState::kRefused) {
+    state_ = ConnectionState::kHeard;
+    refusal_.clear();
   }
   if (state_ == ConnectionState::kHeard && progress.known > 0) state_ = ConnectionState::kDownloading;
   const bool known = (progress.complete || !config_.download) && !version_.empty();

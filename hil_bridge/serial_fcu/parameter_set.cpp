@@ -77,4 +77,11 @@ std::vector<ParameterDifference> differences(const std::vector<ParameterRecord>&
   return found;
 }
 
+std::vector<ParameterDifference> not_as_wanted(const std::vector<ParameterRecord>& wanted,
+                                               const std::vector<ParameterRecord>& told) {
+  std::vector<ParameterDifference> found = differences(wanted, told);
+  std::erase_if(found, [](const ParameterDifference& difference) { return !difference.one; });
+  return found;
+}
+
 }  // namespace ironbird::hil_bridge

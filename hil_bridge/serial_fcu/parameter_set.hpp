@@ -46,4 +46,8 @@ struct ParameterDifference {
 std::vector<ParameterDifference> differences(const std::vector<ParameterRecord>& one,
                                              const std::vector<ParameterRecord>& other);
 
+/// Of the wanted ones those that `told` has otherwise, or not at all.
+std::vector<ParameterDifference> not_as_wanted(const std::vector<ParameterRecord>& wanted,
+                                               const std::vector<ParameterRecord>& told);
+
 }  // namespace ironbird::hil_bridge

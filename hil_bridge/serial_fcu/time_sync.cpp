@@ -11,6 +11,7 @@ using std::chrono::microseconds;
 
 constexpr Time kSlowerThanLeast = microseconds(500);     // of a round trip, still believed
 constexpr Time kWrong = std::chrono::milliseconds(10);   // beyond what an exchange leaves possible
+constexpr int kProof = 2;                                // such exchanges in a row: one may be forged
 constexpr Time kCatchUp = std::chrono::seconds(1);       // in which the line used reaches the fitted one
 constexpr Time kShortestSpan = std::chrono::seconds(4);  // of samples that tell a drift,
 constexpr double kFewest = 8.0;                          // and how many it takes
@@ -42,7 +43,8 @@ void TimeSync::exchange(Time sent, Time fcu, Time arrived) {
     return;
   }
   ++state_.used;
-  if (!state_.valid || contradicts(sample)) begin_with(sample);
+  contradictions_ = state_.valid && contradicts(sample) ? contradictions_ + 1 : 0;
+  if (!state_.valid || contradictions_ >= kProof) begin_with(sample);
   fit(fcu);
 }
 
@@ -59,6 +61,7 @@ void TimeSync::begin_with(const Sample& sample) {
   drift_ = 0.0;
   catch_up_ = 0.0;
   error_ = Time::zero();
+  contradictions_ = 0;
   state_.valid = true;
   state_.least_round_trip = sample.round_trip;
 }

@@ -36,8 +36,8 @@ struct TimeSyncState {
 /// between is the best guess, wrong by half the difference of the two ways; so exchanges that took much
 /// longer than the quickest one remembered are ignored. A straight line (offset and drift) is fitted to the
 /// rest. The line that is used moves towards the fitted one by at most `kGreatestSlew`. Time jumps only when
-/// an exchange proves it wrong, as when the first one waited behind all parameters: forwards; where it would
-/// jump backwards it stands still instead.
+/// two exchanges in a row prove it wrong, as when the first one waited behind all parameters. It jumps
+/// forwards; instead of backwards it stands still.
 ///
 /// Pure: time is an argument. The manner is that of NTP's clock filter (RFC 5905, section 10); the firmware's
 /// companion `rosflight_io` takes each exchange nearly whole and carries its jitter.
@@ -82,6 +82,7 @@ class TimeSync {
   Time error_{};           // until it has moved by this
   Time latest_fcu_ = Time::min();
   Time latest_bench_ = Time::min();
+  int contradictions_ = 0;  // in a row
   TimeSyncState state_;
 };
 

@@ -75,10 +75,7 @@ void EventNames::add_flight(const Scenario& scenario) {
   for (const std::string_view name : kGroundEvents) names_.push_back({"ground", std::string(name)});
   for (const std::string_view name : kDoubtEvents) names_.push_back({"position", std::string(name)});
   if (scenario.fcu.kind == FcuKind::kHil && scenario.fcu.motors != kOutputRaw) {
-    for (std::size_t kind = 0; kind < hil_bridge::transport::kBusEventKinds; ++kind) {
-      const auto event = static_cast<hil_bridge::transport::BusEventKind>(kind);
-      names_.push_back({"can", std::string(name_of(event))});
-    }
+    add_bus("can");
   }
   if (!scenario.fcu.stand.empty()) add_stand(scenario);
   if (!somebody_arms(scenario)) return;
@@ -91,11 +88,15 @@ void EventNames::add_flight(const Scenario& scenario) {
   if (scenario.pilot.automatic) names_.push_back({"request", "take_off"});
 }
 
-void EventNames::add_stand(const Scenario& scenario) {
-  for (std::size_t kind = 0; kind < hil_bridge::transport::kBusEventKinds; ++kind) {
-    const auto event = static_cast<hil_bridge::transport::BusEventKind>(kind);
-    names_.push_back({"stand", std::string(name_of(event))});
+void EventNames::add_bus(const std::string& kind) {
+  for (std::size_t k = 0; k < hil_bridge::transport::kBusEventKinds; ++k) {
+    const auto event = static_cast<hil_bridge::transport::BusEventKind>(k);
+    names_.push_back({kind, std::string(name_of(event))});
   }
+}
+
+void EventNames::add_stand(const Scenario& scenario) {
+  add_bus("stand");
   for (std::size_t motor = 0; motor < scenario.vehicle.rotors.size(); ++motor) {
     for (const bool ready : {true, false}) names_.push_back({"stand", stand_event(motor, ready)});
   }

@@ -44,6 +44,7 @@ class EventNames {
   };
 
   void add_flight(const Scenario& scenario);
+  void add_bus(const std::string& kind);
   void add_stand(const Scenario& scenario);
   void add_waypoints(const Scenario& scenario);
   void add_own(const Scenario& scenario);

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "hil_bridge/executive/paced_fcu.hpp"
+#include "hil_bridge/executive/pace.hpp"
 #include "hil_bridge/hil_fcu/stand_unit.hpp"
 #include "hil_bridge/rosflight/frame_codec.hpp"
 #include "hil_bridge/transport/machine_clock.hpp"
@@ -80,15 +80,15 @@ class LineRig final : public HilRig {
                            : nullptr),
         serial_(line_fault_ ? static_cast<ByteStream&>(*line_fault_) : *line_,
                 {.system = static_cast<std::uint8_t>(unit_parameter(scenario, "SYS_ID"))}),
-        end_(serial_, line_fault_.get()) {
+        end_(serial_, line_fault_.get()),
+        pace_(scenario.fcu.time_scale) {
     if (scenario.fcu.motors != kOutputRaw) wire_bus(scenario, faults);
     if (!scenario.fcu.stand.empty()) wire_stand(scenario);
     hil_bridge::Fcu& unit = stand_ ? static_cast<hil_bridge::Fcu&>(*stand_) : end_;
     hil_.emplace(scenario.fcu, world, unit, motors(), scenario.fcu.external_attitude);
-    paced_.emplace(*hil_, scenario.fcu.time_scale);
   }
 
-  hil_bridge::Fcu& fcu() override { return *paced_; }
+  hil_bridge::Fcu& fcu() override { return *hil_; }
   const hil_bridge::SerialFcu& serial() const override { return serial_; }
   void set_gate(hil_bridge::Gate& gate) override { serial_.set_gate(gate); }
   hil_bridge::RcPilot* pilot() override { return nullptr; }
@@ -99,8 +99,8 @@ class LineRig final : public HilRig {
     if (stand_) stand_->open(gate);
   }
   hil_bridge::StandMotors* stand() override { return stand_ ? stand_->motors() : nullptr; }
-  bool wait_for(Time now) override { return paced_->wait(now) <= kLongestPause; }
-  Time lost() const override { return paced_->lost(); }
+  bool wait_for(Time now) override { return pace_.wait(now) <= kLongestPause; }
+  Time lost() const override { return pace_.lost(); }
 
  private:
   void wire_bus(const Scenario& scenario, bool faults) {
@@ -127,7 +127,7 @@ class LineRig final : public HilRig {
   std::optional<hil_bridge::CanMotors> motors_;
   std::optional<hil_bridge::StandUnit> stand_;
   std::optional<hil_bridge::HilFcu> hil_;
-  std::optional<hil_bridge::PacedFcu> paced_;
+  hil_bridge::Pace pace_;
 };
 
 }  // namespace

@@ -70,7 +70,7 @@ int unit_parameter(const Scenario& scenario, std::string_view name) {
 }
 
 bool has_override_switches(const Scenario& scenario) {
-  return hil_bridge::override_mapped([&](std::string_view name) { return unit_parameter(scenario, name); });
+  return hil_bridge::switches_mapped([&](std::string_view name) { return unit_parameter(scenario, name); });
 }
 
 hil_bridge::InterlockConfig interlock_config(const Scenario& scenario) {

@@ -18,12 +18,18 @@ namespace {
 constexpr const char* kTick = "fcu.tick";
 constexpr std::int64_t kMicrosecond = 1000;  // ns; the firmware's clock counts them
 constexpr double kRounding = 1e-9;           // of a period in seconds
+
 /// What has to last a whole number of ticks.
 struct Span {
   std::string path;
   double length = 0.0;     ///< ns
   double tolerance = 0.0;  ///< of the length
 };
+
+void add_latencies(const FcuConfig& fcu, std::vector<Span>& spans) {
+  spans.push_back({"fcu.uplink_latency", static_cast<double>(fcu.uplink_latency.count())});
+  spans.push_back({"fcu.downlink_latency", static_cast<double>(fcu.downlink_latency.count())});
+}
 
 std::vector<Span> spans(const Scenario& scenario) {
   std::vector<Span> spans;
@@ -37,8 +43,7 @@ std::vector<Span> spans(const Scenario& scenario) {
   // A unit of its own has its own radio and line.
   if (!fcu.has_own_unit()) return spans;
   spans.push_back({"fcu.rc_rate", 1e9 / fcu.rc_rate, FcuConfig::kRcTolerance});
-  spans.push_back({"fcu.uplink_latency", static_cast<double>(fcu.uplink_latency.count())});
-  spans.push_back({"fcu.downlink_latency", static_cast<double>(fcu.downlink_latency.count())});
+  add_latencies(fcu, spans);
   return spans;
 }
 
@@ -75,9 +80,7 @@ std::optional<std::int64_t> fitting_tick(const std::vector<Span>& spans, std::in
 std::vector<Span> in_ticks(const Scenario& scenario) {
   std::vector<Span> spans{{"record.state_period", 1e9 * scenario.record.state_period, kRounding},
                           {"record.signal_period", 1e9 * scenario.record.signal_period, kRounding}};
-  if (!scenario.fcu.has_own_unit()) return spans;
-  spans.push_back({"fcu.uplink_latency", static_cast<double>(scenario.fcu.uplink_latency.count())});
-  spans.push_back({"fcu.downlink_latency", static_cast<double>(scenario.fcu.downlink_latency.count())});
+  if (scenario.fcu.has_own_unit()) add_latencies(scenario.fcu, spans);
   return spans;
 }
 

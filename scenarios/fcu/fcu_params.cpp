@@ -137,7 +137,7 @@ int set(const ParamsArguments& arguments, UnitOnLine& unit) {
 int compare(const ParamsArguments& arguments, UnitOnLine& unit, bool all) {
   const auto& file = arguments.file;
   const auto found = all ? hil_bridge::differences(file, unit.connection().parameters().known())
-                         : wanted_changes(file, unit.connection().parameters().known());
+                         : hil_bridge::not_as_wanted(file, unit.connection().parameters().known());
   print(found, "file", "unit");
   std::fprintf(stderr, "%zu difference%s\n", found.size(), found.size() == 1 ? "" : "s");
   return found.empty() ? kExitPass : kExitFail;

@@ -87,7 +87,7 @@ void require_disarmed(UnitOnLine& unit) {
 /// @return empty, or why not everything could be tried
 std::string set_all(const std::vector<ParameterRecord>& wanted, UnitOnLine& unit) {
   ParameterClient& client = unit.connection().parameters();
-  const auto changes = [&] { return wanted_changes(wanted, client.known()); };
+  const auto changes = [&] { return hil_bridge::not_as_wanted(wanted, client.known()); };
   const auto progress = [&] {
     return of(wanted.size() - changes().size(), wanted.size()) + " are as wanted";
   };
@@ -122,15 +122,6 @@ std::string read_all(UnitOnLine& unit) {
 
 }  // namespace
 
-std::vector<ParameterDifference> wanted_changes(const std::vector<ParameterRecord>& wanted,
-                                                const std::vector<ParameterRecord>& told) {
-  std::vector<ParameterDifference> changes;
-  for (const ParameterDifference& difference : hil_bridge::differences(wanted, told)) {
-    if (difference.one) changes.push_back(difference);
-  }
-  return changes;
-}
-
 PushResult push_parameters(const std::vector<ParameterRecord>& wanted, UnitOnLine& unit) {
   ParameterClient& client = unit.connection().parameters();
   std::string broken_off = set_all(wanted, unit);
@@ -142,7 +133,7 @@ PushResult push_parameters(const std::vector<ParameterRecord>& wanted, UnitOnLin
     if (unread.empty()) told = client.known();
     if (broken_off.empty()) broken_off = unread;
   }
-  return {wanted_changes(wanted, told), broken_off};
+  return {hil_bridge::not_as_wanted(wanted, told), broken_off};
 }
 
 }  // namespace ironbird::scenarios

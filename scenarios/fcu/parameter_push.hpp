@@ -14,12 +14,6 @@ struct PushResult {
   std::string broken_off;                             ///< why it was not brought to an end, or empty
 };
 
-/// Of what is wanted that which the unit has otherwise, or has not told. What nobody wants is nobody's
-/// business.
-std::vector<hil_bridge::ParameterDifference> wanted_changes(
-    const std::vector<hil_bridge::ParameterRecord>& wanted,
-    const std::vector<hil_bridge::ParameterRecord>& told);
-
 /// Sets everything, sees what that changed besides, sets again, and reads all back. Says on standard error
 /// what is being waited for, and breaks off when the unit falls silent or is armed.
 /// @throws transport::LinkError when the unit does not report at the start that it is disarmed; nothing was

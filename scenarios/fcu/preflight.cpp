@@ -61,13 +61,8 @@ double real(const Monitored& unit, std::string_view name) {
 
 /// Of the wanted ones those that the unit has otherwise.
 std::vector<ParameterDifference> different(const Monitored& unit, const PreflightWishes& wishes) {
-  std::vector<ParameterDifference> found;
-  if (!wishes.parameters) return found;
-  for (ParameterDifference& difference :
-       hil_bridge::differences(*wishes.parameters, unit.fcu.connection().parameters().known())) {
-    if (difference.one) found.push_back(std::move(difference));
-  }
-  return found;
+  if (!wishes.parameters) return {};
+  return hil_bridge::not_as_wanted(*wishes.parameters, unit.fcu.connection().parameters().known());
 }
 
 template <class M>
@@ -111,13 +106,12 @@ void look_at_identity(const Monitored& unit, const InterlockInputs& in, const Pr
   const std::string who = (version.empty() ? std::string("version not told") : version) + ", dialect " +
                           std::to_string(dialect) + ", " +
                           std::to_string(unit.fcu.connection().parameters().progress().known) + " parameters";
-  const bool mixes_wrongly = version == "v2.0.0" || version == "2.0.0";
-  list.add(
-      "version", in.unit_known && dialect == kDialectVersion && !mixes_wrongly, who,
-      who + (mixes_wrongly ? "; this one mixes the companion's commands by the mixer that is not selected: "
-                             "flash 2.0.1 or later"
-                           : "; a unit tells its version only while it is disarmed, and must be of "
-                             "ROSflight 2.0"));
+  const std::string& refusal = unit.fcu.connection().refusal();
+  list.add("version", in.unit_known && dialect == kDialectVersion, who,
+           who + "; " +
+               (refusal.empty()
+                    ? "a unit tells its version only while it is disarmed, and must be of ROSflight 2.0"
+                    : refusal));
   if (!wishes.parameters) {
     list.items.push_back({"parameters", Light::kUnlit, "not compared: no scenario was named"});
     return;

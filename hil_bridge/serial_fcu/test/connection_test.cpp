@@ -45,7 +45,7 @@ TEST(ConnectionTest, RefusesAUnitWithAnotherNumberOfParameters) {
   EXPECT_EQ(
       connection.refusal(),
       "the unit has 251 parameters, ROSflight 2.0 has 333; it calls itself v2.0.0-beta; flash a firmware of "
-      "version 2.0");
+      "version 2.0.1 or later");
 }
 
 TEST(ConnectionTest, RefusesAnotherDialectAndAnotherVersion) {
@@ -55,14 +55,23 @@ TEST(ConnectionTest, RefusesAnotherDialectAndAnotherVersion) {
   EXPECT_EQ(connection.state(), ConnectionState::kRefused);
   EXPECT_EQ(connection.refusal(),
             "the unit speaks version 3 of MAVLink's dialects, ROSflight 2.0 has 2; flash a firmware of "
-            "version 2.0");
+            "version 2.0.1 or later");
   for (const char* text : {"v1.3", "v1.3.1-4-gabc", "3.0.0", "v20.1"}) {
     Connection other;
     other.begin(Time{});
     other.take(version(text), milliseconds(1));
     EXPECT_EQ(other.refusal(),
               std::string("the unit is of another version than ROSflight 2.0; it calls itself ") + text +
-                  "; flash a firmware of version 2.0");
+                  "; flash a firmware of version 2.0.1 or later");
+  }
+  for (const char* text : {"v2.0.0", "v2.0.0-3-gabc"}) {
+    Connection first;
+    first.begin(Time{});
+    first.take(version(text), milliseconds(1));
+    EXPECT_EQ(first.state(), ConnectionState::kRefused) << text;
+    first.take(version("v2.0.1"), milliseconds(2));
+    EXPECT_EQ(first.state(), ConnectionState::kHeard) << "it says otherwise now";
+    EXPECT_EQ(first.refusal(), "");
   }
   for (const char* text : {"v2.0.1", "2.0.1", "v2.1.0-rc1", "e8cf6a0f", "1234567"}) {
     Connection ours;

@@ -208,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(
         Flaw{"FirstOfItsVersion",
              [](Unit& unit) { unit.version = "v2.0.0"; },
              {"version"},
-             "flash 2.0.1 or later"},
+             "flash a firmware of version 2.0.1 or later"},
         Flaw{"Armed",
              [](Unit& unit) { unit.status.armed = 1; },
              {"version", "disarmed"},
