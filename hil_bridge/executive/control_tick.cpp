@@ -1,5 +1,7 @@
 #include "hil_bridge/executive/control_tick.hpp"
 
+#include "hil_bridge/executive/page_faults.hpp"
+
 namespace ironbird::hil_bridge {
 
 namespace {
@@ -17,6 +19,13 @@ ControlTick::ControlTick(Fcu& fcu, autopilot::Autopilot& pilot, Guard& guard)
 }
 
 void ControlTick::run(Time now, bool bench_in_time) {
+  if (clock_ == nullptr) return tick(now, bench_in_time);
+  const std::uint64_t before = page_faults_of_this_thread();
+  tick(now, bench_in_time);
+  timing_.page_faults += page_faults_of_this_thread() - before;
+}
+
+void ControlTick::tick(Time now, bool bench_in_time) {
   woke_ = now;
   stepped_ = sent_ = false;
   inbox_.clear();

@@ -36,6 +36,7 @@ class ControlTick {
   LoopTiming& timing() { return timing_; }
 
  private:
+  void tick(Time now, bool bench_in_time);
   void take(const Arrival& arrival);
   void answer(const Arrival& arrival, Time now);
   void send_if_any(const std::optional<rosflight::OffboardControl>& control);

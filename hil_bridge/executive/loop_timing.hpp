@@ -51,6 +51,7 @@ struct LoopTiming {
   std::uint64_t passes = 0;
   std::uint64_t missed = 0;
   std::uint64_t most_missed = 0;
+  std::uint64_t page_faults = 0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -62,6 +63,7 @@ struct LoopTiming {
     visit("passes", self.passes, "1", "passes of the loop");
     visit("missed", self.missed, "1", "control periods in which it did not look");
     visit("most_missed", self.most_missed, "1", "of them the most in a row");
+    visit("page_faults", self.page_faults, "1", "in its ticks: times that memory had to be waited for");
   }
 };
 

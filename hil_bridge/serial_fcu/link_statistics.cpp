@@ -40,6 +40,7 @@ LinkHealth LinkStatistics::health(Time now, const rosflight::DecoderCounts& coun
   return {.frame_rate = frame_rate_,
           .byte_rate = byte_rate_,
           .loss = loss_,
+          .bytes = counts.bytes,
           .lost = lost_,
           .corrupted = counts.corrupted,
           .foreign = counts.foreign,

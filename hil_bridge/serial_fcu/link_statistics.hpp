@@ -15,6 +15,7 @@ struct LinkHealth {
   double frame_rate = 0.0;
   double byte_rate = 0.0;
   double loss = 0.0;
+  std::uint64_t bytes = 0;
   std::uint64_t lost = 0;
   std::uint64_t corrupted = 0;
   std::uint64_t foreign = 0;
@@ -28,6 +29,7 @@ struct LinkHealth {
     visit("frame_rate", self.frame_rate, "1/s", "frames received a second, over the last second");
     visit("byte_rate", self.byte_rate, "byte/s", "bytes received a second, over the last second");
     visit("loss", self.loss, "1", "share of the FCU's frames that did not arrive, over the last second");
+    visit("bytes", self.bytes, "byte", "received since the start");
     visit("lost", self.lost, "1", "frames missing in the FCU's count, since the start");
     visit("corrupted", self.corrupted, "1", "frames whose checksum was wrong");
     visit("foreign", self.foreign, "1", "start bytes that were not of the dialect");

@@ -34,6 +34,10 @@ inline constexpr auto kRealParameter = static_cast<std::uint8_t>(rosflight::Para
 std::string value_text(const ParameterRecord& record);
 /// The bits of a value written as text, or none when `text` is not a value of that type.
 std::optional<std::uint32_t> value_bits(std::uint8_t type, std::string_view text);
+/// What a text must be to be such a value, for a message.
+inline std::string_view demand_on_value(std::uint8_t type) {
+  return type == kIntegerParameter ? "must be a whole number of 32 bits" : "must be a real number";
+}
 
 /// Where two sets differ.
 struct ParameterDifference {

@@ -7,11 +7,27 @@ namespace ironbird::hil_bridge::transport {
 
 using std::chrono::nanoseconds;
 
+template <class Put>
+bool PieceCutter::take(std::span<const std::uint8_t> bytes, Put&& put) {
+  begun_.insert(begun_.end(), bytes.begin(), bytes.end());
+  std::span<const std::uint8_t> left(begun_);
+  bool wanted = true;
+  while (wanted && !left.empty()) {
+    const std::size_t length = length_ == nullptr ? left.size() : length_(left);
+    if (length == 0) break;
+    wanted = put(left.first(length));
+    left = left.subspan(length);
+  }
+  begun_.erase(begun_.begin(), begun_.end() - static_cast<std::ptrdiff_t>(left.size()));
+  return wanted;
+}
+
 LinkFault::LinkFault(ByteStream& line, const LinkFaultConfig& config, std::uint64_t seed, PieceLength pieces)
     : line_(line),
       outgoing_(config.outgoing, seed, "outgoing"),
       incoming_(config.incoming, seed, "incoming"),
-      pieces_(pieces) {}
+      written_(pieces),
+      read_(pieces) {}
 
 void LinkFault::advance(nanoseconds now) {
   now_ = now;
@@ -24,15 +40,8 @@ void LinkFault::advance(nanoseconds now) {
 }
 
 void LinkFault::take(std::span<const std::uint8_t> bytes) {
-  begun_.insert(begun_.end(), bytes.begin(), bytes.end());
-  std::span<const std::uint8_t> left(begun_);
-  while (!left.empty()) {
-    const std::size_t length = pieces_ == nullptr ? left.size() : pieces_(left);
-    if (length == 0) break;
-    if (!incoming_.put(left.first(length), now_)) return cut(incoming_.faults().hang_up_time);
-    left = left.subspan(length);
-  }
-  begun_.erase(begun_.begin(), begun_.end() - static_cast<std::ptrdiff_t>(left.size()));
+  const auto put = [this](std::span<const std::uint8_t> piece) { return incoming_.put(piece, now_); };
+  if (!read_.take(bytes, put)) cut(incoming_.faults().hang_up_time);
 }
 
 void LinkFault::set(const LinkFaultConfig& config) {
@@ -78,8 +87,10 @@ std::size_t LinkFault::read(std::span<std::uint8_t> to) {
 }
 
 std::size_t LinkFault::write(std::span<const std::uint8_t> from) {
-  if (!is_up()) return 0;
-  const bool holds = outgoing_.put(from, now_);
+  send_due();
+  if (!is_up() || waiting()) return 0;
+  const auto put = [this](std::span<const std::uint8_t> piece) { return outgoing_.put(piece, now_); };
+  const bool holds = written_.take(from, put);
   send_due();
   if (!holds) cut(outgoing_.faults().hang_up_time);
   return from.size();
@@ -90,7 +101,8 @@ void LinkFault::cut(nanoseconds closed_for) {
   closed_until_ = std::max(closed_until_, now_ + closed_for);
   outgoing_.clear();
   incoming_.clear();
-  begun_.clear();
+  written_.clear();
+  read_.clear();
 }
 
 bool LinkFault::reopen() {

@@ -13,13 +13,30 @@ namespace ironbird::hil_bridge::transport {
 /// How long the piece is that these bytes begin with; 0: the rest of it has not come yet.
 using PieceLength = std::size_t (*)(std::span<const std::uint8_t> bytes);
 
+/// Cuts what comes in one go, or in several, into pieces.
+class PieceCutter {
+ public:
+  /// @param length  null: what comes in one go is a piece
+  explicit PieceCutter(PieceLength length) : length_(length) {}
+
+  /// @param put  takes a piece; says false when nothing more is to come
+  /// @return has every piece been put?
+  template <class Put>
+  bool take(std::span<const std::uint8_t> bytes, Put&& put);
+  /// What has begun is lost.
+  void clear() { begun_.clear(); }
+
+ private:
+  PieceLength length_;
+  std::vector<std::uint8_t> begun_;  // a piece of which the rest has not come yet
+};
+
 /// A line that loses, delays, spoils and cuts, around any other. Time is told to it, so that a run in
 /// simulated time has the same faults every time.
 class LinkFault final : public ByteStream {
  public:
   /// @param line  outlives this
-  /// @param pieces  cuts what is read into pieces; null: what is read at once is one. What is written at once
-  ///                always is
+  /// @param pieces  cuts what is read and what is written; null: what is read or written at once is a piece
   LinkFault(ByteStream& line, const LinkFaultConfig& config, std::uint64_t seed,
             PieceLength pieces = nullptr);
 
@@ -34,6 +51,7 @@ class LinkFault final : public ByteStream {
   void hang_up(std::chrono::nanoseconds until);
 
   std::size_t read(std::span<std::uint8_t> to) override;
+  /// Takes all, or nothing as long as the line has not taken what was due before.
   std::size_t write(std::span<const std::uint8_t> from) override;
   bool is_up() const override { return up_ && line_.is_up(); }
   bool reopen() override;
@@ -54,8 +72,8 @@ class LinkFault final : public ByteStream {
   ByteStream& line_;
   FaultyDirection outgoing_;
   FaultyDirection incoming_;
-  PieceLength pieces_;
-  std::vector<std::uint8_t> begun_;  // a piece of which the rest has not come yet
+  PieceCutter written_;
+  PieceCutter read_;
   std::chrono::nanoseconds now_{};
   std::chrono::nanoseconds closed_until_{};
   bool up_ = true;

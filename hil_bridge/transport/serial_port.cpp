@@ -6,12 +6,15 @@
 #include <sys/ioctl.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
 #include "hil_bridge/transport/serial_settings.hpp"
+#include "hil_bridge/transport/terminal_owner.hpp"
 
 namespace ironbird::hil_bridge::transport {
 
@@ -40,31 +43,36 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Who has the device open, as " (pid 4711)", or nothing where that cannot be seen.
-std::string holder_of(const std::string& path) {
-  std::error_code error;
-  const fs::path device = fs::canonical(path, error);
-  for (const fs::directory_entry& process : fs::directory_iterator("/proc", error)) {
-    const std::string pid = process.path().filename().string();
-    if (!std::all_of(pid.begin(), pid.end(), [](char c) { return c >= '0' && c <= '9'; })) continue;
-    std::error_code hidden;
-    for (const fs::directory_entry& file : fs::directory_iterator(process.path() / "fd", hidden)) {
-      std::error_code gone;
-      if (fs::read_symlink(file.path(), gone) == device && pid != std::to_string(getpid())) {
-        return " (process " + pid + ")";
-      }
-    }
-  }
-  return {};
-}
-
 bool is_pseudo_terminal(const std::string& path) {
   std::error_code error;
   return fs::canonical(path, error).string().starts_with("/dev/pts/");
 }
 
+/// Throws away what was said before anybody listened. Flushing its queues does not empty a pseudo-terminal:
+/// the kernel holds up to 64 KiB more of what its other end wrote.
+void forget_the_past(int descriptor) {
+  constexpr std::size_t kMost = 1U << 17U;
+  constexpr int kQuiet = 1;  // ms; while there is a past, the kernel brings the next of it sooner
+  constexpr auto kPatience = std::chrono::milliseconds(10);
+  const auto began = std::chrono::steady_clock::now();
+  std::array<std::uint8_t, 4096> bytes;
+  std::size_t read = 0;
+  pollfd state{descriptor, POLLIN, 0};
+  while (read < kMost && std::chrono::steady_clock::now() - began < kPatience) {
+    if (poll(&state, 1, kQuiet) <= 0 || (state.revents & POLLIN) == 0) return;
+    const ssize_t count = ::read(descriptor, bytes.data(), bytes.size());
+    if (count <= 0) return;
+    read += static_cast<std::size_t>(count);
+  }
+}
+
 std::string taken(const std::string& path) {
-  return path + ": another program uses it" + holder_of(path) + "; end that first";
+  const std::string user = user_of_device(path);
+  return path + ": " + (user.empty() ? "another program" : user) + " uses it; end that first";
+}
+
+std::string not_a_port(const std::string& path) {
+  return path + ": it is not a serial port; " + listed(serial_ports());
 }
 
 std::string why_not(const std::string& path, int error) {
@@ -80,6 +88,8 @@ std::string why_not(const std::string& path, int error) {
              "$USER`, and log in again";
     case EBUSY:
       return taken(path);
+    case EISDIR:
+      return not_a_port(path);
     default:
       return path + ": " + std::strerror(error);
   }
@@ -135,14 +145,17 @@ bool SerialPort::try_open(const std::string& path, std::string* why) {
   };
   FileDescriptor file(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!file) return refuse([&path, error = errno] { return why_not(path, error); });
-  // The lock is for programs that ask for it, the exclusive mode for those that do not; root passes the
-  // latter. On a pseudo-terminal that mode would outlive a killed program.
+  if (isatty(file.number()) == 0) return refuse([&path] { return not_a_port(path); });
+  // The lock is for programs that ask for it, the exclusive mode for those that do not and come later; root
+  // passes the latter. On a pseudo-terminal that mode would outlive a killed program.
   if (flock(file.number(), LOCK_EX | LOCK_NB) != 0) return refuse([&path] { return taken(path); });
+  if (why != nullptr && !user_of_device(path).empty()) return refuse([&path] { return taken(path); });
   if (const std::string problem = set_raw(file.number(), config_.baud); !problem.empty()) {
     return refuse([&] { return path + ": " + problem; });
   }
   if (!is_pseudo_terminal(path)) ioctl(file.number(), TIOCEXCL);
   set_low_latency(file.number());
+  forget_the_past(file.number());
   file_ = std::move(file);
   return true;
 }

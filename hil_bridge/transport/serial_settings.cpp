@@ -28,7 +28,7 @@ int actual_baud(int descriptor) {
 std::string set_raw(int descriptor, int baud) {
   termios2 settings{};
   if (ioctl(descriptor, TCGETS2, &settings) != 0) {
-    return errno == ENOTTY ? "it is not a serial port" : std::strerror(errno);
+    return std::strerror(errno);
   }
   settings.c_iflag = 0;
   settings.c_oflag = 0;

@@ -1,5 +1,7 @@
 #include "hil_bridge/transport/terminal_owner.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <fstream>
@@ -27,13 +29,19 @@ bool is_other_end(const fs::path& process, const fs::path& file, const std::stri
   return false;
 }
 
-bool has_made(const fs::path& process, const std::string& number) {
+/// Does one of the files that this process has open hold?
+template <class Holds>
+bool has_file(const fs::path& process, Holds&& holds) {
   std::error_code error;
   for (fs::directory_iterator file(process / "fd", error), end; !error && file != end;
        file.increment(error)) {
-    if (is_other_end(process, file->path(), number)) return true;
+    if (holds(file->path())) return true;
   }
   return false;
+}
+
+bool has_made(const fs::path& process, const std::string& number) {
+  return has_file(process, [&](const fs::path& file) { return is_other_end(process, file, number); });
 }
 
 std::string name_of(const fs::path& process) {
@@ -42,19 +50,37 @@ std::string name_of(const fs::path& process) {
   return name;
 }
 
-}  // namespace
-
-std::string owner_of_terminal(const fs::path& terminal) {
-  const std::string number = terminal.filename();
+/// The first process for which this holds, as a message names it, or nothing.
+template <class Holds>
+std::string find_process(Holds&& holds) {
   std::error_code error;
   for (fs::directory_iterator process("/proc", error), end; !error && process != end;
        process.increment(error)) {
     const std::string id = process->path().filename();
-    if (is_number(id) && has_made(process->path(), number)) {
+    if (is_number(id) && holds(process->path())) {
       return "process " + id + " (" + name_of(process->path()) + ")";
     }
   }
-  return "another program";
+  return {};
+}
+
+}  // namespace
+
+std::string owner_of_terminal(const fs::path& terminal) {
+  const std::string number = terminal.filename();
+  const std::string owner = find_process([&](const fs::path& process) { return has_made(process, number); });
+  return owner.empty() ? "another program" : owner;
+}
+
+std::string user_of_device(const fs::path& device) {
+  std::error_code error;
+  const fs::path name = fs::canonical(device, error);
+  if (error) return {};
+  const std::string self = std::to_string(getpid());
+  return find_process([&](const fs::path& process) {
+    const auto is_device = [&](const fs::path& file) { return fs::read_symlink(file, error) == name; };
+    return process.filename() != self && has_file(process, is_device) && !has_made(process, name.filename());
+  });
 }
 
 }  // namespace ironbird::hil_bridge::transport

@@ -5,6 +5,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -18,20 +19,30 @@ namespace {
 constexpr int kDatagramsHeld = 1 << 20;  // bytes; the burst of all parameters is 11 kB
 constexpr int kGreatestPort = 65535;
 
+/// The first word of `text` up to a colon, which is taken away with it.
+std::string_view next_word(std::string_view& text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::string_view word = text.substr(0, colon);
+  text.remove_prefix(std::min(colon + 1, text.size()));
+  return word;
+}
+
+bool read_port(std::string_view text, int& port) {
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, port);
+  return read.ec == std::errc() && read.ptr == end && port >= 1 && port <= kGreatestPort;
+}
+
 }  // namespace
 
 std::optional<UdpConfig> udp_peer(std::string_view text) {
   UdpConfig config;
-  const std::size_t colon = text.rfind(':');
-  config.host = text.substr(0, colon);
+  if (text.ends_with(':')) return std::nullopt;
+  config.host = next_word(text);
   if (config.host.empty()) return std::nullopt;
-  if (colon == std::string_view::npos) return config;
-  const std::string_view port = text.substr(colon + 1);
-  const char* const end = port.data() + port.size();
-  const auto read = std::from_chars(port.data(), end, config.port);
-  const bool is_port =
-      read.ec == std::errc() && read.ptr == end && config.port >= 1 && config.port <= kGreatestPort;
-  return is_port ? std::optional(config) : std::nullopt;
+  if (!text.empty() && !read_port(next_word(text), config.port)) return std::nullopt;
+  if (!text.empty() && !read_port(text, config.local_port)) return std::nullopt;
+  return config;
 }
 
 void UdpSocket::open() {

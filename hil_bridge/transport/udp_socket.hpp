@@ -25,8 +25,8 @@ struct UdpConfig {
   }
 };
 
-/// The other side as a user writes it: HOST or HOST:PORT, this side has its usual port.
-/// @return nothing for a text that is neither
+/// The other side as a user writes it: HOST, HOST:PORT, or HOST:PORT:OWN_PORT; a port that is not named is
+/// the usual one. @return nothing for a text that is none of them
 std::optional<UdpConfig> udp_peer(std::string_view text);
 
 /// A line of datagrams, IPv4. Each write is one datagram; a read takes one, and what of it does not fit is

@@ -21,7 +21,6 @@ namespace {
 constexpr std::chrono::nanoseconds kProgressPeriod = std::chrono::seconds(1);
 // So far behind a unit that does not wait is a hiccup; more, and the flight is another one.
 constexpr double kGreatestLoss = 1.0;  // s
-constexpr std::chrono::nanoseconds kHealthPeriod = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -60,7 +59,7 @@ void Bench::wire_log() {
                             const autopilot::Module& module) { log_->watch(slot, kind, module); });
   // A line that cannot fail has nothing to tell: its log is that of a unit without a line.
   if (rig_ || (line_ && line_->faults() != nullptr)) {
-    log_->recorder().add("/fcu/link", link_health_, kHealthPeriod, Recorder::When::kAlways);
+    log_->add(link_health_);
   }
   if (rig_ && rig_->motors() != nullptr) {
     log_->recorder().add("/can/motors", rig_->motors()->status(),
@@ -210,7 +209,7 @@ void Bench::watch_link(Time now) {
   }
   if (rig_ && rig_->stand() != nullptr) watch_stand(now);
   if ((!rig_ && !line_) || now < next_health_) return;
-  next_health_ = now + kHealthPeriod;
+  next_health_ = now + FlightLog::kLinkPeriod;
   link_health_ = (rig_ ? rig_->serial() : line_->serial()).health(now);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "autopilot/autopilot.hpp"
+#include "hil_bridge/serial_fcu/link_statistics.hpp"
 #include "hil_bridge/translate/telemetry.hpp"
 #include "scenarios/bench/probe_recorder.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
@@ -32,6 +33,13 @@ class FlightLog {
   /// @throws std::runtime_error when the file cannot be made
   FlightLog(const std::filesystem::path& path, const McapOptions& file, const LoadedScenario& loaded,
             const Sources& sources);
+
+  /// How often it is found out how the unit's line does, and written down.
+  static constexpr Time kLinkPeriod = std::chrono::milliseconds(100);
+  /// Writes that down. @param link  outlives the log
+  void add(const hil_bridge::LinkHealth& link) {
+    recorder_.add("/fcu/link", link, kLinkPeriod, Recorder::When::kAlways);
+  }
 
   /// To be called after every tick. @param stepped  the autopilot worked in it
   void observe(Time now, bool stepped);

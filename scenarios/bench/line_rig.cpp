@@ -31,8 +31,9 @@ std::unique_ptr<ByteStream> open_line(const FcuConfig& fcu) {
   if (fcu.line.starts_with(kUdp)) {
     const auto peer = udp_peer(std::string_view(fcu.line).substr(kUdp.size()));
     if (!peer) {
-      throw std::invalid_argument("fcu.line = " + fcu.line +
-                                  ": must be udp:HOST or udp:HOST:PORT, for example udp:localhost:14525");
+      throw std::invalid_argument(
+          "fcu.line = " + fcu.line +
+          ": must be udp:HOST, udp:HOST:PORT or udp:HOST:PORT:OWN_PORT, for example udp:localhost:14525");
     }
     auto socket = std::make_unique<UdpSocket>(*peer);
     socket->open();

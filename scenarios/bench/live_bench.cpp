@@ -22,7 +22,6 @@ constexpr std::chrono::nanoseconds kLookPeriod = std::chrono::milliseconds(50);
 constexpr std::chrono::nanoseconds kGoneForGood = std::chrono::seconds(5);
 constexpr std::chrono::nanoseconds kSettled = std::chrono::milliseconds(500);
 constexpr std::chrono::nanoseconds kTimingPeriod = std::chrono::seconds(1);
-constexpr std::chrono::nanoseconds kHealthPeriod = std::chrono::milliseconds(100);
 
 DurationCounts counts_of(const hil_bridge::Histogram& histogram, const char* name, const char* meaning) {
   DurationCounts counts{name,
@@ -45,7 +44,7 @@ DurationCounts counts_of(const hil_bridge::Histogram& histogram, const char* nam
 
 /// The loop's own measurements, by the names and meanings that it gives them.
 BenchTiming timing_of(const hil_bridge::LoopTiming& loop) {
-  BenchTiming timing{{}, loop.passes, loop.missed, loop.most_missed};
+  BenchTiming timing{{}, loop.passes, loop.missed, loop.most_missed, loop.page_faults};
   hil_bridge::LoopTiming::describe(
       loop, [&]<class Value>(const char* name, const Value& value, const char*, const char* meaning) {
         if constexpr (std::is_same_v<Value, hil_bridge::Histogram>) {
@@ -100,7 +99,7 @@ void LiveBench::wire_log(const LiveOptions& options) {
   log_ =
       std::make_unique<FlightLog>(options.log_file, McapOptions{.journal = true, .in_background = true},
                                   loaded_, FlightLog::Sources{*autopilot_, realtime_->telemetry(), nullptr});
-  log_->recorder().add("/fcu/link", link_health_, kHealthPeriod, Recorder::When::kAlways);
+  log_->add(link_health_);
   log_->recorder().add("/bench/timing", realtime_->timing(), kTimingPeriod, Recorder::When::kAlways);
   operator_->on_swap([this](const std::string& slot, const std::string& kind,
                             const autopilot::Module& module) { log_->watch(slot, kind, module); });

@@ -26,7 +26,7 @@ std::vector<std::string> live_findings(const LoadedScenario& loaded) {
   std::vector<std::string> findings;
   if (scenario.fcu.line.empty()) {
     findings.emplace_back(
-        "fcu.line: must say where the unit is, as /dev/serial/by-id/NAME or udp:HOST[:PORT]");
+        "fcu.line: must say where the unit is, as /dev/serial/by-id/NAME or udp:HOST[:PORT[:OWN_PORT]]");
   }
   for (std::size_t i = 0; i < scenario.events.size(); ++i) {
     if (!scenario.events[i].fault) continue;

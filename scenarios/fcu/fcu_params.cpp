@@ -91,7 +91,8 @@ int tell(const PushResult& result, std::size_t wanted) {
   return interrupt_requested() ? kExitInterrupted : kExitHardware;
 }
 
-int set_all(const std::vector<ParameterRecord>& wanted, const ParamsArguments& arguments, UnitOnLine& unit) {
+int set_and_report(const std::vector<ParameterRecord>& wanted, const ParamsArguments& arguments,
+                   UnitOnLine& unit) {
   check_fits(wanted, unit);
   const PushResult result = push_parameters(wanted, unit);
   if (!result.left.empty() || !result.broken_off.empty()) return tell(result, wanted.size());
@@ -121,9 +122,8 @@ int set(const ParamsArguments& arguments, UnitOnLine& unit) {
     ParameterRecord record = record_named(arguments.words[k], unit);
     const auto bits = hil_bridge::value_bits(record.type, arguments.words[k + 1]);
     record.bits = bits.value_or(0);
-    const char* const number =
-        record.type == hil_bridge::kIntegerParameter ? "must be a whole number" : "must be a real number";
-    const std::string complaint = bits ? complaint_about_value(record) : number;
+    const std::string complaint =
+        bits ? complaint_about_value(record) : std::string(hil_bridge::demand_on_value(record.type));
     if (!complaint.empty())
       findings.push_back(record.name + " = " + arguments.words[k + 1] + ", " + complaint);
     const auto same = [&](const ParameterRecord& other) { return other.name == record.name; };
@@ -131,7 +131,7 @@ int set(const ParamsArguments& arguments, UnitOnLine& unit) {
     wanted.push_back(record);
   }
   if (!findings.empty()) throw ConfigError(findings);
-  return set_all(wanted, arguments, unit);
+  return set_and_report(wanted, arguments, unit);
 }
 
 int compare(const ParamsArguments& arguments, UnitOnLine& unit, bool all) {
@@ -164,7 +164,7 @@ const Deed kDeeds[] = {
     {"save", "FILE", [](std::size_t n) { return n == 1; }, save},
     {"load", "FILE", [](std::size_t n) { return n == 1; },
      [](const ParamsArguments& arguments, UnitOnLine& unit) {
-       return set_all(arguments.file, arguments, unit);
+       return set_and_report(arguments.file, arguments, unit);
      }},
     {"diff", "FILE", [](std::size_t n) { return n == 1; },
      [](const ParamsArguments& arguments, UnitOnLine& unit) { return compare(arguments, unit, true); }},

@@ -2,11 +2,13 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "hil_bridge/executive/real_time_rights.hpp"
+#include "hil_bridge/rosflight/frame_codec.hpp"
 #include "hil_bridge/transport/link_fault.hpp"
 #include "hil_bridge/transport/machine_clock.hpp"
 #include "hil_bridge/transport/pseudo_terminal.hpp"
@@ -30,16 +32,19 @@ namespace {
 using hil_bridge::Time;
 using hil_bridge::transport::ByteStream;
 using hil_bridge::transport::LinkError;
+using hil_bridge::transport::LinkFault;
 using hil_bridge::transport::machine_time;
 using hil_bridge::transport::PseudoTerminal;
 using hil_bridge::transport::SocketCan;
 using hil_bridge::transport::SocketCanParams;
+using hil_bridge::transport::udp_peer;
 using hil_bridge::transport::UdpConfig;
 using hil_bridge::transport::UdpSocket;
 
 // So far behind the clock there is no catching up: the clock is set anew and the loss told.
 constexpr Time kGivenUp = std::chrono::milliseconds(200);
 constexpr Time kTellPeriod = std::chrono::seconds(1);
+constexpr const char* kCompanionPort = ":14520";
 constexpr int kLeastRest = 10;  // parts of a period, of which one is rest
 
 struct ServeArguments {
@@ -47,6 +52,7 @@ struct ServeArguments {
   std::vector<std::string> settings;
   std::string pty;
   int udp = 0;
+  std::string udp_to = "localhost";
   double duration = 0.0;  // s
   bool idle_pilot = false;
   std::string can;
@@ -61,17 +67,25 @@ struct Line {
   std::string how_to_reach;
 };
 
+/// Where the companion is, which has the usual port unless another is named.
+UdpConfig companion(const std::string& text) {
+  if (const auto peer = udp_peer(text.find(':') == std::string::npos ? text + kCompanionPort : text)) {
+    return *peer;
+  }
+  throw ConfigError("--udp-to = " + text + ": must be HOST or HOST:PORT, for example localhost:14520");
+}
+
 Line open_line(const ServeArguments& arguments) {
   if (arguments.pty.empty() == (arguments.udp == 0)) {
     throw ConfigError("say how others reach the unit: either --pty LINK or --udp PORT");
   }
   if (arguments.udp != 0) {
-    UdpConfig config;
+    UdpConfig config = companion(arguments.udp_to);
     config.local_port = arguments.udp;
-    config.port = 14520;
     auto socket = std::make_unique<UdpSocket>(config);
     socket->open();
-    return {std::move(socket), "--udp localhost:" + std::to_string(arguments.udp)};
+    const std::string own = config.port == UdpConfig{}.local_port ? "" : ":" + std::to_string(config.port);
+    return {std::move(socket), "--udp localhost:" + std::to_string(arguments.udp) + own};
   }
   return {std::make_unique<PseudoTerminal>(arguments.pty), "--port " + arguments.pty};
 }
@@ -117,8 +131,12 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
   if (arguments.on_desk) loaded.scenario.fcu.on_desk = true;
   const std::unique_ptr<SocketCan> bus = open_bus(arguments);
   const Line line = open_line(arguments);
-  hil_bridge::transport::LinkFault spoiled(*line.stream, loaded.scenario.link, loaded.scenario.seed);
-  ServedUnit unit(loaded.scenario, spoiled, bus.get());
+  std::optional<LinkFault> spoiled;
+  if (loaded.gives("link")) {
+    spoiled.emplace(*line.stream, loaded.scenario.link, loaded.scenario.seed,
+                    &hil_bridge::rosflight::piece_length);
+  }
+  ServedUnit unit(loaded.scenario, spoiled ? static_cast<ByteStream&>(*spoiled) : *line.stream, bus.get());
   const Time period(std::llround(static_cast<double>(unit.period().count()) / arguments.time_scale));
   std::fprintf(stderr, "serving %s; connect with: ironbird fcu info %s; Ctrl-C ends\n",
                loaded.scenario.vehicle_folder.c_str(), line.how_to_reach.c_str());
@@ -132,9 +150,9 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
   Time told{};
   Time lost{};
   while (!interrupt_requested() && (end == Time::zero() || unit.now() < end)) {
-    spoiled.advance(unit.now());
+    if (spoiled) spoiled->advance(unit.now());
     unit.tick();
-    spoiled.advance(unit.now());
+    if (spoiled) spoiled->advance(unit.now());
     tell_events(bus.get(), arguments.can);
     next += period;
     const Time behind = machine_time() - next;
@@ -167,7 +185,10 @@ FcuWork declare_fcu_serve(VerbOptions& options) {
       .one_word_each()
       .called("PATH=VALUE");
   options.option("--pty", arguments->pty, "make a pseudo-terminal and this link to it");
-  options.option("--udp", arguments->udp, "have this UDP port, and send to port 14520").within(1, 65535);
+  options.option("--udp", arguments->udp, "have this UDP port, and send to --udp-to").within(1, 65535);
+  options
+      .option("--udp-to", arguments->udp_to, "where the companion is, HOST[:PORT]; its usual port is 14520")
+      .shows_default();
   options.option("--duration", arguments->duration, "end after so many seconds").within(0.1, 86400.0);
   options.option("--can", arguments->can, "its motors are on this CAN interface, as DroneCAN controllers");
   options.flag("--can-fd", arguments->can_fd, "in CAN FD frames");

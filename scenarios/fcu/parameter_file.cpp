@@ -111,10 +111,6 @@ std::string plain(const std::string& value) {
   return value.starts_with('+') ? value.substr(1) : value;
 }
 
-std::string no_value_of(std::uint8_t type) {
-  return type == kIntegerParameter ? "must be a whole number of 32 bits" : "must be a real number";
-}
-
 std::optional<ParameterRecord> record_of(const YAML::Node& entry, const ParameterJudge& judge,
                                          Findings& findings) {
   if (!entry.IsMap()) {
@@ -142,7 +138,8 @@ std::optional<ParameterRecord> record_of(const YAML::Node& entry, const Paramete
   }
   const auto bits = hil_bridge::value_bits(*kind, plain(*value));
   const ParameterRecord record{*name, *kind, bits.value_or(0)};
-  const std::string complaint = bits ? (judge ? judge(record) : "") : no_value_of(*kind);
+  const std::string complaint =
+      bits ? (judge ? judge(record) : "") : std::string(hil_bridge::demand_on_value(*kind));
   if (complaint.empty()) return record;
   findings.add(entry["value"].Mark(), *name + " = " + *value + ", " + complaint);
   return std::nullopt;

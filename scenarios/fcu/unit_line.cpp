@@ -33,7 +33,8 @@ constexpr int kLook = 2;                 // ms between looks at a line on which 
 void add_unit_address(VerbOptions& options, UnitAddress& address) {
   options.option("--port,--line", address.port, "serial port of the unit, as /dev/ttyACM0");
   options.option("--baud", address.baud, "rate of the port, Bd").shows_default();
-  options.option("--udp", address.udp, "unit behind UDP instead, HOST[:PORT]; this side has port 14520");
+  options.option("--udp", address.udp,
+                 "unit behind UDP instead, HOST[:PORT[:OWN_PORT]]; the usual ports are 14525 and 14520");
   options.option("--patience", address.patience, "how long to wait for the unit, s")
       .shows_default()
       .within(0.1, 3600.0);
@@ -47,7 +48,7 @@ std::unique_ptr<ByteStream> open_line(const UnitAddress& address) {
     const auto peer = hil_bridge::transport::udp_peer(address.udp);
     if (!peer) {
       throw ConfigError("--udp = " + address.udp +
-                        ": must be HOST or HOST:PORT, for example localhost:14525");
+                        ": must be HOST, HOST:PORT or HOST:PORT:OWN_PORT, for example localhost:14525");
     }
     auto socket = std::make_unique<UdpSocket>(*peer);
     socket->open();

@@ -61,8 +61,9 @@ std::string timing_section(const ReportRun& run) {
   std::string out =
       "<section><h2>The bench's own time</h2><p>" + std::to_string(timing.passes) +
       " passes of the control loop; " + std::to_string(timing.missed) + " control periods missed, at most " +
-      std::to_string(timing.most_missed) +
-      " in a row.</p><table><tr><th>stage</th><th>from when to when</th><th>count</th>"
+      std::to_string(timing.most_missed) + " in a row; " + std::to_string(timing.page_faults) +
+      " times its ticks waited for memory.</p><table><tr><th>stage</th><th>from when to "
+      "when</th><th>count</th>"
       "<th>p50</th><th>p99</th><th>longest</th><th>1 us to 1 s, both axes logarithmic</th></tr>";
   for (const DurationCounts& stage : timing.stages) out += row(stage);
   return out + "</table></section>";

@@ -37,6 +37,7 @@ struct BenchTiming {
   std::uint64_t passes = 0;
   std::uint64_t missed = 0;
   std::uint64_t most_missed = 0;
+  std::uint64_t page_faults = 0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -44,6 +45,7 @@ struct BenchTiming {
     visit("passes", self.passes, "1", "of the control loop");
     visit("missed", self.missed, "1", "control periods in which it did not look");
     visit("most_missed", self.most_missed, "1", "of them the most in a row");
+    visit("page_faults", self.page_faults, "1", "in its ticks: times that memory had to be waited for");
   }
 };
 

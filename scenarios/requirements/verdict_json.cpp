@@ -80,11 +80,16 @@ Json timing_to_json(const BenchTiming& timing) {
   return {{"passes", timing.passes},
           {"missed_periods", timing.missed},
           {"most_missed_in_a_row", timing.most_missed},
+          {"page_faults", timing.page_faults},
           {"stages", std::move(stages)}};
 }
 
 BenchTiming timing_from_json(const Json& json) {
-  BenchTiming timing{{}, json.at("passes"), json.at("missed_periods"), json.at("most_missed_in_a_row")};
+  BenchTiming timing{{},
+                     json.at("passes"),
+                     json.at("missed_periods"),
+                     json.at("most_missed_in_a_row"),
+                     json.value("page_faults", std::uint64_t{})};
   for (const Json& stage : json.at("stages")) {
     DurationCounts counts{stage.at("name"),
                           stage.at("meaning"),

@@ -3,6 +3,7 @@
 #include "hil_bridge/executive/realtime.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <deque>
 #include <stdexcept>
@@ -104,6 +105,37 @@ TEST_F(RealtimeTest, WakesAsSoonAsTheLineHasSomethingAndAnswersInTheSamePass) {
   EXPECT_TRUE(loop.stepped());
   EXPECT_EQ(clock.waited_for, 7);
   EXPECT_EQ(loop.pass(), microseconds(300) + kPeriod) << "a period from there";
+}
+
+/// A unit whose talk needs memory that nobody has touched before.
+class GreedyFcu final : public Fcu {
+ public:
+  ~GreedyFcu() override {
+    if (memory_ != MAP_FAILED) munmap(memory_, kSize);
+  }
+  void advance(Time) override {
+    if (memory_ == MAP_FAILED)
+      memory_ = mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory_ != MAP_FAILED) static_cast<volatile char*>(memory_)[0] = 1;
+  }
+  void receive(std::vector<Arrival>&) override {}
+  void send(const rosflight::Message&) override {}
+
+ private:
+  static constexpr std::size_t kSize = 4096;
+  void* memory_ = MAP_FAILED;
+};
+
+TEST_F(RealtimeTest, CountsHowOftenATickWaitedForMemory) {
+  Realtime loop = make();
+  for (int k = 0; k < 10; ++k) loop.pass();
+  const std::uint64_t warm = loop.timing().page_faults;
+  for (int k = 0; k < 100; ++k) loop.pass();
+  EXPECT_EQ(loop.timing().page_faults, warm) << "in a loop that is warm there are none";
+  GreedyFcu greedy;
+  Realtime other(greedy, pilot, live.guard, line, clock, {});
+  other.pass();
+  EXPECT_GE(other.timing().page_faults, 1U);
 }
 
 TEST_F(RealtimeTest, WaitsForTheLineThatThereIsNow) {

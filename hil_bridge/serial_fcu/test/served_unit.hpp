@@ -84,8 +84,8 @@ class DeskLink {
   explicit DeskLink(double loss = 0.0, std::uint64_t seed = 1, const ConnectionConfig& connection = {},
                     const VirtualFcuConfig& unit = {})
       : unit_(unit),
-        there_(pair_.far(), losing(loss), seed),
-        here_(pair_.near(), losing(loss), seed + 1000),
+        there_(pair_.far(), losing(loss), seed, &rosflight::piece_length),
+        here_(pair_.near(), losing(loss), seed + 1000, &rosflight::piece_length),
         served_(unit_, there_),
         fcu_(here_, connection, &gate_) {}
 

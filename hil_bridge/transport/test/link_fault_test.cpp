@@ -227,6 +227,44 @@ TEST(LinkFaultTest, LosesWholePiecesOfWhatItReadsHoweverTheyCome) {
   for (std::size_t k = 0; k < heard[0].size(); k += 3) EXPECT_EQ(heard[0][k], heard[0][k + 2]);
 }
 
+TEST(LinkFaultTest, LosesWholePiecesOfWhatItWritesHoweverTheyAreWritten) {
+  Bytes heard[2];
+  for (const std::size_t at_once : {2U, 9U}) {
+    StreamPair pair;
+    LinkFault fault(pair.near(), {{.drop = 0.5}, {}}, 1, three);
+    Bytes all(3000);
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<std::uint8_t>(k / 3);
+    for (std::size_t k = 0; k < all.size(); k += at_once) {
+      const std::size_t count = std::min(at_once, all.size() - k);
+      EXPECT_EQ(fault.write(std::span(all).subspan(k, count)), count);
+    }
+    Bytes& out = heard[at_once == 2 ? 0 : 1];
+    out.resize(all.size());
+    out.resize(pair.far().read(out));
+  }
+  EXPECT_EQ(heard[0], heard[1]);
+  ASSERT_GT(heard[0].size(), 1200U);
+  ASSERT_LT(heard[0].size(), 1800U);
+  for (std::size_t k = 0; k < heard[0].size(); k += 3) EXPECT_EQ(heard[0][k], heard[0][k + 2]);
+}
+
+// What nobody reads must not be kept: a program that comes later would take it for what is said now.
+TEST(LinkFaultTest, TakesNoMoreThanTheLineBehindItWhileNobodyReads) {
+  constexpr std::size_t kRoom = 1000;
+  StreamPair pair(kRoom);
+  LinkFault fault(pair.near(), {}, 1);
+  std::size_t taken = 0;
+  for (int k = 0; k < 100; ++k) {
+    fault.advance(milliseconds(k));
+    taken += fault.write(Bytes(100, static_cast<std::uint8_t>(k)));
+  }
+  EXPECT_LE(taken, kRoom + 100);
+  Bytes all(2 * kRoom);
+  EXPECT_EQ(pair.far().read(all), kRoom);
+  fault.advance(milliseconds(100));
+  EXPECT_EQ(fault.write(Bytes(100, 7)), 100U) << "somebody has read";
+}
+
 TEST(LinkFaultTest, HasTheSameFaultsForTheSameSeedAndOthersForAnother) {
   const DirectionFaults faults{.drop = 0.1, .corrupt = 0.01, .insert = 0.1, .duplicate = 0.1};
   std::map<std::uint64_t, Bytes> runs[2];

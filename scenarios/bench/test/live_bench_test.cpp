@@ -112,9 +112,9 @@ TEST_P(KillTest, KillsAFlyingVehicleWithinOnePeriodOfKnowing) {
   EXPECT_LE(rig.there().now() - harmed, GetParam().noticed + 2 * kPeriod);
   // THEN the line falls silent, and the unit lets the pilot have the vehicle within 150 ms.
   const int sent = rig.there().unit().commands;
-  rig.until(0.15, [] { return false; });
+  rig.pass_for(milliseconds(150), [] { return false; });
   EXPECT_LE(rig.there().unit().commands, sent + 1) << "one may have been under way";
-  EXPECT_TRUE(GetParam().held_for_ever || !rig.there().fcu().firmware().commands().offboard());
+  EXPECT_TRUE(GetParam().held_for_ever || !rig.there().firmware().commands().offboard());
 }
 
 TEST_P(KillTest, MakesTheRunInvalidWithTheReason) {
@@ -129,7 +129,8 @@ TEST_P(KillTest, MakesTheRunInvalidWithTheReason) {
 }
 
 const KillCase kKillCases[] = {
-    {"HangUp", [](LiveRig& rig) { rig.line.hang_up(); }, Time{}, "the unit is not heard any more"},
+    {"HangUp", [](LiveRig& rig) { rig.line.hang_up(); }, Time{},
+     "the unit began anew: it booted, or its line was cut"},
     {"ImuSilence", [](LiveRig& rig) { rig.there().unit().mute<test::rosflight::SmallImu>(); },
      milliseconds(50), "no IMU data for 50 ms"},
     {"RadioSilence", [](LiveRig& rig) { rig.there().fcu().pilot().fall_silent(); }, milliseconds(100),
@@ -147,12 +148,29 @@ const KillCase kKillCases[] = {
                                      .param_type = hil_bridge::kRealParameter});
      },
      milliseconds(10), "a parameter of the unit has changed"},
+    {"Boot", [](LiveRig& rig) { rig.there().boot(); }, Time{},
+     "the unit began anew: it booted, or its line was cut"},
     {"MissedPeriods", [](LiveRig& rig) { rig.there().stalled = milliseconds(54); }, milliseconds(54),
      "the control loop misses its period"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Harms, KillTest, ::testing::ValuesIn(kKillCases),
                          [](const auto& kill) { return kill.param.name; });
+
+// docs/safety.md, C10.
+TEST(LiveBenchTest, NeverCommandsAUnitThatBootedInFlightAndArmsAgain) {
+  LiveRig rig(LiveRig::Settings{{"interlock.profile", "bench"}});
+  ASSERT_TRUE(rig.flies_within(15.0));
+  test::BootedUnit& booted = rig.there().boot();
+  ASSERT_TRUE(rig.until(0.1, [&] { return rig.state() == kKilled; }));
+  rig.there().unit().greatest_force = 0.0F;
+  const auto armed = [&] { return booted.host().firmware().arming().armed(); };
+  ASSERT_TRUE(rig.pass_for(std::chrono::seconds(60), armed)) << "it never armed again";
+  rig.pass_for(std::chrono::seconds(4), [] { return false; });
+  EXPECT_TRUE(armed());
+  EXPECT_EQ(rig.state(), kKilled);
+  EXPECT_EQ(rig.there().unit().greatest_force, 0.0F);
+}
 
 TEST(LiveBenchTest, SendsZerosAfterAKillOnTheBenchEveryPeriod) {
   LiveRig rig(LiveRig::Settings{{"interlock.profile", "bench"}});

@@ -30,11 +30,11 @@ namespace rosflight = hil_bridge::rosflight;
 /// A unit that can be kept from saying some things.
 class MutableUnit final : public hil_bridge::Fcu {
  public:
-  explicit MutableUnit(hil_bridge::VirtualFcu& unit) : unit_(unit) {}
-  void advance(Time now) override { unit_.advance(now); }
+  explicit MutableUnit(hil_bridge::Fcu& unit) : unit_(&unit) {}
+  void advance(Time now) override { unit_->advance(now); }
   void receive(std::vector<Arrival>& out) override {
     said_.clear();
-    unit_.receive(said_);
+    unit_->receive(said_);
     for (const Arrival& arrival : said_) {
       if (!muted.contains(arrival.message.index())) out.push_back(arrival);
     }
@@ -45,7 +45,7 @@ class MutableUnit final : public hil_bridge::Fcu {
       last_command = *command;
       greatest_force = std::max(greatest_force, -command->u[2]);
     }
-    unit_.send(message);
+    unit_->send(message);
   }
 
   template <class Content>
@@ -53,14 +53,48 @@ class MutableUnit final : public hil_bridge::Fcu {
     muted.insert(rosflight::Message(Content{}).index());
   }
 
+  /// It is another one from now on.
+  void become(hil_bridge::Fcu& unit) { unit_ = &unit; }
+
   std::set<std::size_t> muted;
   int commands = 0;
   rosflight::OffboardControl last_command;
   float greatest_force = 0.0F;
 
  private:
-  hil_bridge::VirtualFcu& unit_;
+  hil_bridge::Fcu* unit_;
   std::vector<Arrival> said_;
+};
+
+/// The firmware of a unit that has just booted in the middle of a flight: its clock begins, the world goes
+/// on.
+class BootedUnit final : public hil_bridge::Fcu {
+ public:
+  BootedUnit(const hil_bridge::VirtualFcuConfig& config, simulator::World& world, Time booted)
+      : world_(world), tick_(config.tick), booted_(booted), host_(config) {}
+
+  void advance(Time now) override {
+    for (Time own = host_.now() + tick_; booted_ + own <= now; own += tick_) {
+      world_.set_armed(host_.firmware().arming().armed());
+      world_.step(host_.commands(), booted_ + own);
+      simulator::Readings readings = world_.readings();
+      if (readings.imu) readings.imu->taken = own;
+      if (readings.gnss) readings.gnss->taken = own;
+      host_.tick(readings, own);
+    }
+  }
+  void receive(std::vector<Arrival>& out) override {
+    host_.receive(out);
+    for (Arrival& arrival : out) arrival.when = booted_ + host_.now();
+  }
+  void send(const rosflight::Message& message) override { host_.send(message); }
+  hil_bridge::FirmwareHost& host() { return host_; }
+
+ private:
+  simulator::World& world_;
+  Time tick_;
+  Time booted_;
+  hil_bridge::FirmwareHost host_;
 };
 
 /// The other end of the line, as a clock: who waits lets the unit live until it says something.
@@ -86,6 +120,26 @@ class UnitEnd final : public hil_bridge::Clock {
     }
   }
 
+  /// The unit boots, and finds the pilot's switches as they are: armed, and handed over.
+  BootedUnit& boot() {
+    hil_bridge::VirtualFcuConfig config = scenario_.fcu;
+    config.calibrate_imu_at_start = false;
+    for (const char* const kept : {"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS"}) {  // in its flash
+      const auto bias = fcu_.firmware().parameters().real(hil_bridge::virtual_fcu::find_parameter(kept));
+      config.parameters.push_back({kept, static_cast<double>(bias)});
+    }
+    booted_ = std::make_unique<BootedUnit>(config, *world_, ticked_);
+    booted_->host().pilot().arm(true);
+    booted_->host().pilot().override_companion(false);
+    unit_.become(*booted_);
+    return *booted_;
+  }
+
+  /// Of the unit that there is now.
+  const hil_bridge::virtual_fcu::Firmware& firmware() {
+    return booted_ ? booted_->host().firmware() : fcu_.firmware();
+  }
+
   MutableUnit& unit() { return unit_; }
   hil_bridge::VirtualFcu& fcu() { return fcu_; }
   const simulator::World& world() const { return *world_; }
@@ -108,6 +162,7 @@ class UnitEnd final : public hil_bridge::Clock {
   const Scenario& scenario_;
   std::unique_ptr<simulator::World> world_;
   hil_bridge::VirtualFcu fcu_;
+  std::unique_ptr<BootedUnit> booted_;
   MutableUnit unit_;
   hil_bridge::ServedFcu served_;
   Time now_{};
@@ -148,6 +203,12 @@ class LiveRig {
       bench().pass();
     }
     return true;
+  }
+  /// The same, whether or not the run is over.
+  bool pass_for(Time span, const std::function<bool()>& holds) {
+    const Time end = there().now() + span;
+    while (!holds() && there().now() < end) bench().pass();
+    return holds();
   }
   bool live_within(double seconds) {
     return until(seconds, [this] { return state() == hil_bridge::InterlockState::kLive; });

@@ -6,13 +6,18 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
 
+#include "hil_bridge/transport/pseudo_terminal.hpp"
 #include "scenarios/fcu/test/fcu_program.hpp"
 #include "scenarios/fcu/unit_line.hpp"
 
 namespace ironbird::scenarios {
 namespace {
 
+using hil_bridge::transport::PseudoTerminal;
 using test::FcuProgramTest;
 using test::kMission;
 using test::Outcome;
@@ -32,6 +37,22 @@ TEST_F(FcuProgramTest, SaysWhatIsConnected) {
   EXPECT_EQ(json["armed"], false);
   EXPECT_EQ(json["loss"], 0.0);
   EXPECT_THAT(run(fcu("info")).text, HasSubstr("errors"));
+}
+
+TEST_F(FcuProgramTest, SaysWhetherAnythingSpeaksWhereThereIsNoUnit) {
+  PseudoTerminal port(link_);
+  const std::string words = "fcu info --patience 1 --port " + link_;
+  EXPECT_EQ(run(words).text,
+            link_ + " at 921600 Bd: nothing is heard; is the unit powered, and is this its port?\n");
+  const std::jthread receiver([&port](const std::stop_token& stop) {
+    const std::string_view fix = "$GPGLL,4717.11,N,00833.91,E,092321.00,A,A*60\r\n";
+    while (!stop.stop_requested()) {
+      port.write(std::vector<std::uint8_t>(fix.begin(), fix.end()));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  EXPECT_THAT(run(words).text,
+              HasSubstr("bytes come, but no frame of ROSflight 2.0; is the baud rate right"));
 }
 
 TEST_F(FcuProgramTest, SavesComparesSetsAndLoadsParameters) {

@@ -92,7 +92,7 @@ int main(int, char** argv) {
   signal(SIGTERM, [](int) { end_wanted = 1; });
   WatchdogConfig config;
   config.profile = std::string(argv[2]) == "flight" ? InterlockProfile::kFlight : InterlockProfile::kBench;
-  config.threads = {{"the control loop", milliseconds(50)}, {"the recorder", milliseconds(200)}};
+  config.threads = {{"the control loop", milliseconds(50)}, {"the operator's thread", milliseconds(200)}};
   config.zeros_at_most = std::chrono::seconds(2);
   Watchdog watchdog(config);
   std::printf("%d\n", watchdog.process());

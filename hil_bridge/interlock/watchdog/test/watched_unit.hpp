@@ -167,14 +167,14 @@ class BenchProcess {
     stream >> number >> name >> state;
     return state != 'Z' && state != 'X';
   }
-  /// Time that the watchdog has had a core for; 0 when it has gone.
-  double watchdogs_cpu_seconds() const {
+  /// Time that the watchdog has had a core for; nothing when it has gone.
+  std::optional<double> watchdogs_cpu_seconds() const {
     std::ifstream stream("/proc/" + std::to_string(watchdog_) + "/stat");
     constexpr int kUserTime = 13;  // fields before it, see proc(5)
     std::string skipped;
     for (int k = 0; k < kUserTime; ++k) stream >> skipped;
     double user = 0.0, system = 0.0;
-    stream >> user >> system;
+    if (!(stream >> user >> system)) return std::nullopt;
     return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
   }
   /// Has it ended, and how? As waitpid says; nothing while it lives.
