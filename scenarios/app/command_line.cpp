@@ -77,8 +77,8 @@ std::optional<int> read(CLI::App& app, int argc, char** argv) {
 }
 
 int run_verb_of(CLI::App& app, int argc, char** argv, const autopilot::Modules& modules) {
-  const std::array<Verb, 7> verbs = {run_verb(),      check_verb(), report_verb(), video_verb(),
-                                     snapshot_verb(), fcu_verb(),   topics_verb()};
+  const std::array<Verb, 8> verbs = {run_verb(),   check_verb(),    replay_verb(), report_verb(),
+                                     video_verb(), snapshot_verb(), fcu_verb(),    topics_verb()};
   Work chosen;
   std::vector<std::string> names;
   VerbOptions all(app);

@@ -20,6 +20,7 @@ struct Verb {
 Verb run_verb();
 Verb check_verb();
 Verb fcu_verb();
+Verb replay_verb();
 Verb report_verb();
 Verb snapshot_verb();
 Verb topics_verb();

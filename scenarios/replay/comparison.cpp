@@ -1,0 +1,127 @@
+#include "scenarios/replay/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "autopilot/math/angles.hpp"
+#include "autopilot/math/euler_zyx.hpp"
+#include "autopilot/math/local_map.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+using autopilot::Quaternion;
+using autopilot::StateEstimate;
+using autopilot::Vector3;
+using hil_bridge::Time;
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+
+Vector3 no_numbers() {
+  return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
+Vector3 between(const Vector3& from, const Vector3& to, double share) {
+  return from + share * (to - from);
+}
+
+}  // namespace
+
+void Comparison::Sum::add(double value) {
+  if (!std::isfinite(value)) return;
+  ++count;
+  sum += value;
+  squares += value * value;
+}
+
+double Comparison::Sum::rms() const {
+  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(squares / static_cast<double>(count));
+}
+
+double Comparison::Sum::deviation() const {
+  if (count == 0) return std::numeric_limits<double>::quiet_NaN();
+  const double mean = sum / static_cast<double>(count);
+  return std::sqrt(std::max(0.0, squares / static_cast<double>(count) - mean * mean));
+}
+
+const std::vector<EstimateDifference>& Comparison::observe(const StateEstimate& ours) {
+  differences_.clear();
+  const Time now = ours.stamp;
+  const bool usable = autopilot::is_usable(ours.health);
+  const auto pass = [&](const auto& series, std::size_t& next) {
+    for (; next < series.size() && series[next].stamp <= now; ++next) {
+      const Time when = series[next].stamp;
+      if (counts(when)) ++wanted_;
+      const bool spanned = usable && before_ && before_->stamp <= when;
+      if (!spanned) continue;
+      const double length = static_cast<double>((now - before_->stamp).count());
+      const double share = length > 0.0 ? static_cast<double>((when - before_->stamp).count()) / length : 1.0;
+      compare(series[next], share, ours);
+    }
+  };
+  pass(recorded_.attitudes, next_attitude_);
+  pass(recorded_.positions, next_position_);
+  before_ = usable ? std::optional(ours) : std::nullopt;
+  return differences_;
+}
+
+void Comparison::compare(const RecordedAttitude& recorded, double share, const StateEstimate& ours) {
+  const Quaternion q_NB = before_->q_NB.slerp(share, ours.q_NB);
+  const Vector3 theta = autopilot::euler_from_quaternion(q_NB);
+  const Vector3 other = autopilot::euler_from_quaternion(recorded.q_NB);
+  EstimateDifference difference{recorded.stamp, no_numbers(), no_numbers(), {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    difference.theta(axis) = autopilot::shortest_difference(theta(axis), other(axis));
+  }
+  differences_.push_back(difference);
+  if (!counts(recorded.stamp)) return;
+  ++compared_;
+  roll_.add(difference.theta.x());
+  pitch_.add(difference.theta.y());
+  heading_.add(difference.theta.z());
+}
+
+void Comparison::compare(const RecordedPosition& recorded, double share, const StateEstimate& ours) {
+  EstimateDifference difference{recorded.stamp, no_numbers(), no_numbers(), no_numbers()};
+  const Vector3 p_N = placed(between(before_->p_NB_N, ours.p_NB_N, share), ours.origin);
+  if (recorded.position_known && ours.position_known) difference.p_N.head<2>() = (p_N - recorded.p_NB_N).head<2>();
+  if (recorded.height_known) difference.p_N.z() = (p_N - recorded.p_NB_N).z();
+  if (recorded.velocity_known && ours.position_known)
+    difference.v_N = between(before_->v_NB_N(), ours.v_NB_N(), share) - recorded.v_NB_N;
+  differences_.push_back(difference);
+  if (!counts(recorded.stamp)) return;
+  ++compared_;
+  north_.add(difference.p_N.x());
+  east_.add(difference.p_N.y());
+  horizontal_.add(difference.p_N.head<2>().norm());
+  down_.add(difference.p_N.z());
+  velocity_.add(difference.v_N.norm());
+}
+
+Vector3 Comparison::placed(const Vector3& p_N, const autopilot::LocalOrigin& origin) const {
+  if (!recorded_.origin.known || !origin.known) return p_N;
+  return autopilot::local_from_geodetic(autopilot::geodetic_from_local(p_N, origin), recorded_.origin);
+}
+
+std::vector<Metric> Comparison::results() const {
+  const std::string& whose = recorded_.name;
+  const std::string than = "root mean square of the difference to " + whose + ", ";
+  std::vector<Metric> all = {
+      {"horizontal_difference_rms_m", horizontal_.rms(), "m", than + "distance on the map"},
+      {"north_difference_rms_m", north_.rms(), "m", than + "north"},
+      {"east_difference_rms_m", east_.rms(), "m", than + "east"},
+      {"down_difference_rms_m", down_.deviation(), "m", than + "down, its mean taken off"},
+      {"velocity_difference_rms_mps", velocity_.rms(), "m/s", than + "velocity, three axes together"},
+      {"roll_difference_rms_deg", kDegreesPerRadian * roll_.rms(), "deg", than + "roll"},
+      {"pitch_difference_rms_deg", kDegreesPerRadian * pitch_.rms(), "deg", than + "pitch"},
+      {"heading_difference_rms_deg", kDegreesPerRadian * heading_.rms(), "deg", than + "heading"}};
+  const double share = wanted_ == 0 ? std::numeric_limits<double>::quiet_NaN()
+                                    : static_cast<double>(compared_) / static_cast<double>(wanted_);
+  all.push_back({"compared_share", share, "1", "of what " + whose + " recorded in the window, how much could be compared"});
+  return all;
+}
+
+}  // namespace ironbird::scenarios

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autopilot/types/linear_algebra.hpp"
+#include "autopilot/types/state_estimate.hpp"
+#include "hil_bridge/fcu/fcu.hpp"
+
+namespace ironbird::scenarios {
+
+/// An attitude that was recorded beside the sensors.
+struct RecordedAttitude {
+  hil_bridge::Time stamp{};
+  autopilot::Quaternion q_NB = autopilot::Quaternion::Identity();
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("stamp", self.stamp, "ns", "when it was valid");
+    visit("q_NB", self.q_NB, "1", "attitude of B in N");
+  }
+};
+
+/// A position and velocity that were recorded beside the sensors.
+struct RecordedPosition {
+  hil_bridge::Time stamp{};
+  autopilot::Vector3 p_NB_N = autopilot::Vector3::Zero();
+  autopilot::Vector3 v_NB_N = autopilot::Vector3::Zero();
+  bool position_known = true;
+  bool height_known = true;
+  bool velocity_known = true;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("stamp", self.stamp, "ns", "when they were valid");
+    visit("p_NB_N", self.p_NB_N, "m", "position from the recorded estimate's own origin");
+    visit("v_NB_N", self.v_NB_N, "m/s", "velocity over ground");
+    visit("position_known", self.position_known, "1", "whoever estimated it believed north and east");
+    visit("height_known", self.height_known, "1", "and down");
+    visit("velocity_known", self.velocity_known, "1", "and the velocity");
+  }
+};
+
+/// An estimate that was recorded beside the sensors, or truth.
+struct RecordedEstimate {
+  std::string name;  ///< whose it is: "PX4", "RTK"
+  std::vector<RecordedAttitude> attitudes;
+  std::vector<RecordedPosition> positions;
+  autopilot::LocalOrigin origin;  ///< of the positions; not known: wherever the flight began
+};
+
+/// From when to when.
+struct Interval {
+  hil_bridge::Time begin{};
+  hil_bridge::Time end{};
+};
+
+/// A flight that somebody else's autopilot or recorder logged: its sensors as a flight-control unit would have
+/// sent them, and what was estimated at the time. Times are since the first sample of the IMU.
+struct RecordedFlight {
+  std::string what;                            ///< "PX4 1.14.0 on PX4_FMU_V6C"
+  std::vector<hil_bridge::Arrival> messages;   ///< by time; of those at one time the IMU's is the last
+  std::vector<RecordedEstimate> estimates;     ///< the first is compared with
+  std::vector<Interval> airborne;              ///< as the recorder's own land detector told
+  hil_bridge::Time end{};                      ///< of the last sample of the IMU
+  std::optional<double> declination;           ///< rad, as the recorder used it at last; may be stale
+  std::vector<std::string> remarks;            ///< what is missing or odd, a line each
+};
+
+}  // namespace ironbird::scenarios

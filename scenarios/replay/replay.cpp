@@ -1,0 +1,114 @@
+#include "scenarios/replay/replay.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "hil_bridge/translate/sensor_frame_builder.hpp"
+#include "scenarios/bench/operator.hpp"
+#include "scenarios/bench/run_time.hpp"
+
+namespace ironbird::scenarios {
+
+namespace {
+
+using hil_bridge::Time;
+
+constexpr Time kAfterTakeOff = std::chrono::seconds(3);
+constexpr Time kBeforeLanding = std::chrono::seconds(1);
+constexpr Time kProgressPeriod = std::chrono::seconds(1);
+
+std::string seconds_text(Time time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f s", to_seconds(time));
+  return text;
+}
+
+}  // namespace
+
+Interval usual_window(const RecordedFlight& flight) {
+  const Interval whole{Time::zero(), flight.end};
+  if (flight.airborne.empty()) return whole;
+  const Interval inside{flight.airborne.front().begin + kAfterTakeOff, flight.airborne.back().end - kBeforeLanding};
+  return inside.begin < inside.end ? inside : whole;
+}
+
+Replay::Replay(const RecordedFlight& flight, const LoadedScenario& loaded, const autopilot::Modules& modules,
+               ReplayOptions options)
+    : flight_(flight),
+      options_(std::move(options)),
+      window_(options_.window.value_or(usual_window(flight))),
+      autopilot_(make_autopilot(loaded, modules)) {
+  if (!flight.estimates.empty()) comparison_.emplace(flight.estimates.front(), window_);
+  if (!options_.log_file.empty()) wire_log(loaded);
+}
+
+void Replay::wire_log(const LoadedScenario& loaded) {
+  log_ = std::make_unique<FlightLog>(
+      options_.log_file,
+      McapOptions{.journal = loaded.scenario.record.journal, .compress = loaded.scenario.record.compress}, loaded,
+      FlightLog::Sources{*autopilot_, telemetry_, nullptr});
+}
+
+ReplayResult Replay::run() {
+  ReplayResult result;
+  result.window = window_;
+  hil_bridge::SensorFrameBuilder builder;
+  Time next_progress = kProgressPeriod;
+  for (const hil_bridge::Arrival& arrival : flight_.messages) {
+    telemetry_.take(arrival.message);
+    const autopilot::SensorFrame* const frame = builder.push(arrival);
+    if (frame == nullptr) continue;
+    autopilot_->step(*frame);
+    watch_health();
+    if (log_) write_recorded(arrival.when);
+    if (comparison_) {
+      for (const EstimateDifference& difference : comparison_->observe(autopilot_->signals().estimate)) {
+        if (log_) log_->recorder().write_once("/compared/difference", difference, arrival.when);
+      }
+    }
+    if (log_) log_->observe(arrival.when, true);
+    if (arrival.when < next_progress) continue;
+    next_progress += kProgressPeriod;
+    if (options_.on_progress && !options_.on_progress(arrival.when)) {
+      result.interrupted = true;
+      break;
+    }
+  }
+  if (log_) log_->close();
+  if (comparison_) result.metrics = comparison_->results();
+  result.remarks = findings();
+  if (ready_) result.ready = to_seconds(*ready_);
+  result.lost_at_end = lost_;
+  return result;
+}
+
+void Replay::write_recorded(Time now) {
+  if (flight_.estimates.empty()) return;
+  const RecordedEstimate& recorded = flight_.estimates.front();
+  for (; next_attitude_ < recorded.attitudes.size() && recorded.attitudes[next_attitude_].stamp <= now; ++next_attitude_)
+    log_->recorder().write_once("/recorded/attitude", recorded.attitudes[next_attitude_], now);
+  for (; next_position_ < recorded.positions.size() && recorded.positions[next_position_].stamp <= now; ++next_position_)
+    log_->recorder().write_once("/recorded/position", recorded.positions[next_position_], now);
+}
+
+void Replay::watch_health() {
+  const autopilot::StateEstimate& estimate = autopilot_->signals().estimate;
+  if (!ready_ && autopilot::is_usable(estimate.health)) ready_ = estimate.stamp;
+  const bool lost = estimate.health == autopilot::Health::kLost;
+  if (lost && !lost_) ++losses_;
+  lost_ = lost;
+}
+
+std::vector<std::string> Replay::findings() const {
+  std::vector<std::string> all = flight_.remarks;
+  if (!ready_) {
+    all.emplace_back("the estimator never started: it needs rates, forces, field, pressure and fixes");
+  } else if (*ready_ > window_.begin) {
+    all.push_back("the estimator was ready after " + seconds_text(*ready_) + ", in the window that counts");
+  }
+  if (losses_ > 0) all.push_back("the estimate was lost " + std::to_string(losses_) + (losses_ == 1 ? " time" : " times"));
+  return all;
+}
+
+}  // namespace ironbird::scenarios

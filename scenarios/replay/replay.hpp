@@ -1,0 +1,73 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autopilot/autopilot.hpp"
+#include "scenarios/bench/flight_log.hpp"
+#include "scenarios/bench/scenario_loader.hpp"
+#include "scenarios/replay/comparison.hpp"
+#include "scenarios/replay/recorded_flight.hpp"
+
+namespace ironbird::scenarios {
+
+/// What a replay does beside estimating.
+struct ReplayOptions {
+  std::filesystem::path log_file;                       ///< empty: no log
+  std::optional<Interval> window;                       ///< what counts; none: airborne, without take-off and landing
+  std::function<bool(hil_bridge::Time)> on_progress;    ///< asked every second of the flight; false: stop
+};
+
+/// What came of it.
+struct ReplayResult {
+  std::vector<Metric> metrics;
+  Interval window;
+  std::vector<std::string> remarks;  ///< what was not as it should be, a line each
+  std::optional<double> ready;       ///< s, when there was an estimate; none: never
+  bool lost_at_end = false;
+  bool interrupted = false;
+};
+
+/// The window that counts unless another is named: from three seconds after the first take-off to a second before the
+/// last landing; the whole flight when nobody told of either.
+Interval usual_window(const RecordedFlight& flight);
+
+/// Feeds what was recorded in a flight to an autopilot, through the same door as a unit's messages, and holds its
+/// estimate against what was estimated then. What it commands goes nowhere.
+class Replay {
+ public:
+  /// @param flight, loaded  outlive this
+  /// @throws std::invalid_argument when the autopilot cannot be wired, std::runtime_error when the log cannot be made
+  Replay(const RecordedFlight& flight, const LoadedScenario& loaded, const autopilot::Modules& modules,
+         ReplayOptions options);
+
+  /// From the first message to the last. Called once.
+  ReplayResult run();
+
+  const autopilot::Autopilot& autopilot() const { return *autopilot_; }
+
+ private:
+  void wire_log(const LoadedScenario& loaded);
+  void write_recorded(hil_bridge::Time now);
+  void watch_health();
+  std::vector<std::string> findings() const;
+
+  const RecordedFlight& flight_;
+  ReplayOptions options_;
+  Interval window_;
+  std::unique_ptr<autopilot::Autopilot> autopilot_;
+  hil_bridge::Telemetry telemetry_;
+  std::unique_ptr<FlightLog> log_;          // null: none is wanted
+  std::optional<Comparison> comparison_;    // none: there is nothing to compare with
+  std::size_t next_attitude_ = 0;
+  std::size_t next_position_ = 0;
+  std::optional<hil_bridge::Time> ready_;   // when there was an estimate
+  int losses_ = 0;
+  bool lost_ = false;
+};
+
+}  // namespace ironbird::scenarios
