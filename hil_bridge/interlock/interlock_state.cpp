@@ -48,7 +48,7 @@ constexpr InterlockRow kRows[] = {
      {kReleased, kLive},
      kKilled,
      [](const In& in) { return !in.unit_known; },
-     "the unit began anew: it booted, or its line was cut"},
+     "the unit began anew: it booted, its line was cut, or another one speaks"},
     {"loses the link",
      {kReleased, kLive},
      kKilled,

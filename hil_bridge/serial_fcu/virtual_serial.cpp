@@ -66,14 +66,16 @@ struct VirtualSerialFcu::Line {
         served(fcu, there, config.system),
         serial(faults ? static_cast<transport::ByteStream&>(*faults) : here,
                {.system = config.system, .synchronise = false, .download = true}, gate) {
-    port.open();
+    if (!port.reopen()) port.open();  // a line that was made just now has no past; `open` says what is wrong
   }
 
   /// Until all that was sent to the unit before `now` is there.
   void bring_up(Time now) {
     if (faults) {
       const Time before = now - Time(1);
-      for (faults->advance(before); faults->waiting(); faults->advance(before)) served.take();
+      for (faults->advance(before); faults->waiting() || !serial.flush(); faults->advance(before)) {
+        served.take();
+      }
     } else {
       while (!serial.flush()) served.take();
     }

@@ -122,6 +122,11 @@ FaultyDirection::Due* FaultyDirection::due(nanoseconds now) {
   return under_way_.empty() || under_way_.front().when > now ? nullptr : &under_way_.front();
 }
 
+bool FaultyDirection::has_room(nanoseconds now) const {
+  constexpr double kDriversQueue = 4096.0;  // bytes, as the Linux serial core has
+  return std::chrono::duration<double>(line_free_ - now).count() * faults_.byte_rate < kDriversQueue;
+}
+
 void FaultyDirection::clear() {
   under_way_.clear();
   line_free_ = {};

@@ -115,6 +115,9 @@ class FaultyDirection {
   Due* due(std::chrono::nanoseconds now);
   void pop() { under_way_.pop_front(); }
 
+  /// May more be put? A line that carries few bytes a second holds what a driver does, not all that is said.
+  bool has_room(std::chrono::nanoseconds now) const;
+
   /// What is under way is lost.
   void clear();
   bool empty() const { return under_way_.empty(); }

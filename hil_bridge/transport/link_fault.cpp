@@ -7,21 +7,6 @@ namespace ironbird::hil_bridge::transport {
 
 using std::chrono::nanoseconds;
 
-template <class Put>
-bool PieceCutter::take(std::span<const std::uint8_t> bytes, Put&& put) {
-  begun_.insert(begun_.end(), bytes.begin(), bytes.end());
-  std::span<const std::uint8_t> left(begun_);
-  bool wanted = true;
-  while (wanted && !left.empty()) {
-    const std::size_t length = length_ == nullptr ? left.size() : length_(left);
-    if (length == 0) break;
-    wanted = put(left.first(length));
-    left = left.subspan(length);
-  }
-  begun_.erase(begun_.begin(), begun_.end() - static_cast<std::ptrdiff_t>(left.size()));
-  return wanted;
-}
-
 LinkFault::LinkFault(ByteStream& line, const LinkFaultConfig& config, std::uint64_t seed, PieceLength pieces)
     : line_(line),
       outgoing_(config.outgoing, seed, "outgoing"),
@@ -88,7 +73,7 @@ std::size_t LinkFault::read(std::span<std::uint8_t> to) {
 
 std::size_t LinkFault::write(std::span<const std::uint8_t> from) {
   send_due();
-  if (!is_up() || waiting()) return 0;
+  if (!is_up() || waiting() || !outgoing_.has_room(now_)) return 0;
   const auto put = [this](std::span<const std::uint8_t> piece) { return outgoing_.put(piece, now_); };
   const bool holds = written_.take(from, put);
   send_due();
@@ -99,6 +84,10 @@ std::size_t LinkFault::write(std::span<const std::uint8_t> from) {
 void LinkFault::cut(nanoseconds closed_for) {
   up_ = false;
   closed_until_ = std::max(closed_until_, now_ + closed_for);
+  forget();
+}
+
+void LinkFault::forget() {
   outgoing_.clear();
   incoming_.clear();
   written_.clear();
@@ -107,6 +96,7 @@ void LinkFault::cut(nanoseconds closed_for) {
 
 bool LinkFault::reopen() {
   if (now_ < closed_until_) return false;
+  if (!line_.is_up()) forget();
   up_ = line_.is_up() || line_.reopen();
   return up_;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,19 @@ class PieceCutter {
   /// @param put  takes a piece; says false when nothing more is to come
   /// @return has every piece been put?
   template <class Put>
-  bool take(std::span<const std::uint8_t> bytes, Put&& put);
+  bool take(std::span<const std::uint8_t> bytes, Put&& put) {
+    begun_.insert(begun_.end(), bytes.begin(), bytes.end());
+    std::span<const std::uint8_t> left(begun_);
+    bool wanted = true;
+    while (wanted && !left.empty()) {
+      const std::size_t length = length_ == nullptr ? left.size() : length_(left);
+      if (length == 0) break;
+      wanted = put(left.first(length));
+      left = left.subspan(length);
+    }
+    begun_.erase(begun_.begin(), begun_.end() - static_cast<std::ptrdiff_t>(left.size()));
+    return wanted;
+  }
   /// What has begun is lost.
   void clear() { begun_.clear(); }
 
@@ -51,7 +65,8 @@ class LinkFault final : public ByteStream {
   void hang_up(std::chrono::nanoseconds until);
 
   std::size_t read(std::span<std::uint8_t> to) override;
-  /// Takes all, or nothing as long as the line has not taken what was due before.
+  /// Takes all, or nothing: as long as the line has not taken what was due before, and while as much waits
+  /// for a slow line as a driver holds.
   std::size_t write(std::span<const std::uint8_t> from) override;
   bool is_up() const override { return up_ && line_.is_up(); }
   bool reopen() override;
@@ -67,6 +82,7 @@ class LinkFault final : public ByteStream {
  private:
   void take(std::span<const std::uint8_t> bytes);
   void cut(std::chrono::nanoseconds closed_for);
+  void forget();
   void send_due();
 
   ByteStream& line_;

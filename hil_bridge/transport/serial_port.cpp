@@ -49,20 +49,18 @@ bool is_pseudo_terminal(const std::string& path) {
 }
 
 /// Throws away what was said before anybody listened. Flushing its queues does not empty a pseudo-terminal:
-/// the kernel holds up to 64 KiB more of what its other end wrote.
+/// the kernel holds up to 64 KiB more, which it brings when it likes, and then the sender has a queue of its
+/// own.
 void forget_the_past(int descriptor) {
-  constexpr std::size_t kMost = 1U << 17U;
-  constexpr int kQuiet = 1;  // ms; while there is a past, the kernel brings the next of it sooner
-  constexpr auto kPatience = std::chrono::milliseconds(10);
-  const auto began = std::chrono::steady_clock::now();
+  constexpr auto kLong = std::chrono::milliseconds(100);
+  constexpr int kPause = 2;  // ms
+  const auto end = std::chrono::steady_clock::now() + kLong;
   std::array<std::uint8_t, 4096> bytes;
-  std::size_t read = 0;
-  pollfd state{descriptor, POLLIN, 0};
-  while (read < kMost && std::chrono::steady_clock::now() - began < kPatience) {
-    if (poll(&state, 1, kQuiet) <= 0 || (state.revents & POLLIN) == 0) return;
-    const ssize_t count = ::read(descriptor, bytes.data(), bytes.size());
-    if (count <= 0) return;
-    read += static_cast<std::size_t>(count);
+  while (std::chrono::steady_clock::now() < end) {
+    if (::read(descriptor, bytes.data(), bytes.size()) > 0) continue;
+    pollfd state{descriptor, POLLIN, 0};
+    poll(&state, 1, kPause);
+    if ((state.revents & (POLLHUP | POLLERR)) != 0) return;
   }
 }
 
@@ -137,7 +135,8 @@ bool SerialPort::try_open(std::string* why) {
   return opened;
 }
 
-// Looking for who has a port, or which there are, takes longer than a control loop has.
+// Looking for who has a port, or which there are, and waiting until its past has come takes longer than a
+// control loop has.
 bool SerialPort::try_open(const std::string& path, std::string* why) {
   const auto refuse = [why](const auto& explain) {
     if (why != nullptr) *why = explain();
@@ -145,7 +144,7 @@ bool SerialPort::try_open(const std::string& path, std::string* why) {
   };
   FileDescriptor file(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!file) return refuse([&path, error = errno] { return why_not(path, error); });
-  if (isatty(file.number()) == 0) return refuse([&path] { return not_a_port(path); });
+  if (isatty(file.number()) == 0 && errno == ENOTTY) return refuse([&path] { return not_a_port(path); });
   // The lock is for programs that ask for it, the exclusive mode for those that do not and come later; root
   // passes the latter. On a pseudo-terminal that mode would outlive a killed program.
   if (flock(file.number(), LOCK_EX | LOCK_NB) != 0) return refuse([&path] { return taken(path); });
@@ -155,7 +154,7 @@ bool SerialPort::try_open(const std::string& path, std::string* why) {
   }
   if (!is_pseudo_terminal(path)) ioctl(file.number(), TIOCEXCL);
   set_low_latency(file.number());
-  forget_the_past(file.number());
+  if (why != nullptr) forget_the_past(file.number());
   file_ = std::move(file);
   return true;
 }

@@ -30,7 +30,8 @@ class SerialPort final : public ByteStream {
   /// Opens nothing: call `open` to hear why not, or `reopen` to wait for a cable.
   explicit SerialPort(const SerialPortConfig& config);
 
-  /// What was said before is not heard. @throws LinkError saying what is wrong and what to do
+  /// What was said before is not heard: it listens for 0.1 s first. @throws LinkError saying what is wrong
+  /// and what to do
   void open();
 
   std::size_t read(std::span<std::uint8_t> to) override;

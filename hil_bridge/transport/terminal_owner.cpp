@@ -1,5 +1,6 @@
 #include "hil_bridge/transport/terminal_owner.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -73,13 +74,18 @@ std::string owner_of_terminal(const fs::path& terminal) {
 }
 
 std::string user_of_device(const fs::path& device) {
+  // Not the name: in another container the same one means another device.
+  struct stat wanted {};
+  if (stat(device.c_str(), &wanted) != 0) return {};
+  const auto is_device = [&](const fs::path& file) {
+    struct stat there {};
+    return stat(file.c_str(), &there) == 0 && there.st_dev == wanted.st_dev && there.st_ino == wanted.st_ino;
+  };
   std::error_code error;
-  const fs::path name = fs::canonical(device, error);
-  if (error) return {};
+  const std::string number = fs::canonical(device, error).filename();
   const std::string self = std::to_string(getpid());
   return find_process([&](const fs::path& process) {
-    const auto is_device = [&](const fs::path& file) { return fs::read_symlink(file, error) == name; };
-    return process.filename() != self && has_file(process, is_device) && !has_made(process, name.filename());
+    return process.filename() != self && has_file(process, is_device) && !has_made(process, number);
   });
 }
 

@@ -17,6 +17,8 @@ std::string why_not_met(const hil_bridge::SerialFcu& fcu, hil_bridge::Time now, 
   const hil_bridge::LinkHealth link = fcu.health(now);
   const hil_bridge::Connection& connection = fcu.connection();
   if (connection.state() == hil_bridge::ConnectionState::kSilent) {
+    if (link.age != hil_bridge::Time::max())
+      return "it was heard, and is silent now; is the unit still there?";
     return link.bytes > 0
                ? "bytes come, but no frame of ROSflight 2.0; is the baud rate right, and is this the unit?"
                : "nothing is heard; is the unit powered, and is this its port?";

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -44,7 +45,6 @@ using hil_bridge::transport::UdpSocket;
 // So far behind the clock there is no catching up: the clock is set anew and the loss told.
 constexpr Time kGivenUp = std::chrono::milliseconds(200);
 constexpr Time kTellPeriod = std::chrono::seconds(1);
-constexpr const char* kCompanionPort = ":14520";
 constexpr int kLeastRest = 10;  // parts of a period, of which one is rest
 
 struct ServeArguments {
@@ -52,7 +52,7 @@ struct ServeArguments {
   std::vector<std::string> settings;
   std::string pty;
   int udp = 0;
-  std::string udp_to = "localhost";
+  std::string udp_to;
   double duration = 0.0;  // s
   bool idle_pilot = false;
   std::string can;
@@ -69,26 +69,58 @@ struct Line {
 
 /// Where the companion is, which has the usual port unless another is named.
 UdpConfig companion(const std::string& text) {
-  if (const auto peer = udp_peer(text.find(':') == std::string::npos ? text + kCompanionPort : text)) {
-    return *peer;
-  }
+  const bool names_port = text.find(':') != std::string::npos;
+  const std::string usual = ":" + std::to_string(UdpConfig{}.local_port);
+  const auto peer = udp_peer(names_port ? text : text + usual);
+  if (peer && std::count(text.begin(), text.end(), ':') < 2) return *peer;
   throw ConfigError("--udp-to = " + text + ": must be HOST or HOST:PORT, for example localhost:14520");
+}
+
+/// What whoever is there has to type.
+std::string udp_from_there(const UdpConfig& config) {
+  const bool here = config.host == "localhost" || config.host == "127.0.0.1";
+  const std::string own = config.port == UdpConfig{}.local_port ? "" : ":" + std::to_string(config.port);
+  return "--udp " + std::string(here ? "localhost" : "THIS_MACHINE") + ":" +
+         std::to_string(config.local_port) + own + (here ? "" : " at " + config.host);
 }
 
 Line open_line(const ServeArguments& arguments) {
   if (arguments.pty.empty() == (arguments.udp == 0)) {
     throw ConfigError("say how others reach the unit: either --pty LINK or --udp PORT");
   }
+  if (arguments.udp == 0 && !arguments.udp_to.empty()) {
+    throw ConfigError("--udp-to = " + arguments.udp_to + ": goes with --udp PORT only");
+  }
   if (arguments.udp != 0) {
-    UdpConfig config = companion(arguments.udp_to);
+    UdpConfig config = companion(arguments.udp_to.empty() ? "localhost" : arguments.udp_to);
     config.local_port = arguments.udp;
     auto socket = std::make_unique<UdpSocket>(config);
     socket->open();
-    const std::string own = config.port == UdpConfig{}.local_port ? "" : ":" + std::to_string(config.port);
-    return {std::move(socket), "--udp localhost:" + std::to_string(arguments.udp) + own};
+    return {std::move(socket), udp_from_there(config)};
   }
   return {std::make_unique<PseudoTerminal>(arguments.pty), "--port " + arguments.pty};
 }
+
+/// The line with the scenario's faults, where it has some.
+class ServedLine {
+ public:
+  ServedLine(const ServeArguments& arguments, const LoadedScenario& loaded) : line_(open_line(arguments)) {
+    if (!loaded.gives("link")) return;
+    spoiled_.emplace(*line_.stream, loaded.scenario.link, loaded.scenario.seed,
+                     &hil_bridge::rosflight::piece_length);
+  }
+  ByteStream& stream() { return spoiled_ ? static_cast<ByteStream&>(*spoiled_) : *line_.stream; }
+  const std::string& how_to_reach() const { return line_.how_to_reach; }
+  void advance(Time now) {
+    if (!spoiled_) return;
+    spoiled_->advance(now);
+    if (!spoiled_->is_up()) spoiled_->reopen();
+  }
+
+ private:
+  Line line_;
+  std::optional<LinkFault> spoiled_;
+};
 
 /// The bus of the motors, or null. What is wrong with it is a matter of the machine, not of the command line.
 std::unique_ptr<SocketCan> open_bus(const ServeArguments& arguments) {
@@ -123,56 +155,70 @@ void tell(const ServedUnit& unit, Time lost) {
                lost > Time::zero() ? "  (this machine is too slow)" : "");
 }
 
-int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
-  note_interrupts();
+LoadedScenario load(const ServeArguments& arguments, const autopilot::Modules& modules) {
   LoadedScenario loaded =
       load_scenario(arguments.scenario, {split_settings(arguments.settings), std::nullopt}, modules);
   if (arguments.idle_pilot) loaded.scenario.pilot.automatic = false;
   if (arguments.on_desk) loaded.scenario.fcu.on_desk = true;
-  const std::unique_ptr<SocketCan> bus = open_bus(arguments);
-  const Line line = open_line(arguments);
-  std::optional<LinkFault> spoiled;
-  if (loaded.gives("link")) {
-    spoiled.emplace(*line.stream, loaded.scenario.link, loaded.scenario.seed,
-                    &hil_bridge::rosflight::piece_length);
+  return loaded;
+}
+
+/// The unit's clock, as far as this machine keeps up with it.
+class UnitClock {
+ public:
+  explicit UnitClock(Time period) : period_(period) {}
+
+  /// Until the next tick.
+  void wait() {
+    next_ += period_;
+    const Time behind = machine_time() - next_;
+    if (behind > kGivenUp) {
+      lost_ += behind;
+      next_ += behind;
+    }
+    // A unit that is always late would never leave the core: it runs before all ordinary programs.
+    hil_bridge::transport::sleep_until(std::max(next_, machine_time() + period_ / kLeastRest));
   }
-  ServedUnit unit(loaded.scenario, spoiled ? static_cast<ByteStream&>(*spoiled) : *line.stream, bus.get());
-  const Time period(std::llround(static_cast<double>(unit.period().count()) / arguments.time_scale));
+  Time lost() const { return lost_; }
+
+ private:
+  Time period_;
+  Time next_ = machine_time();
+  Time lost_{};
+};
+
+int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
+  note_interrupts();
+  const LoadedScenario loaded = load(arguments, modules);
+  const std::unique_ptr<SocketCan> bus = open_bus(arguments);
+  ServedLine line(arguments, loaded);
+  ServedUnit unit(loaded.scenario, line.stream(), bus.get());
   std::fprintf(stderr, "serving %s; connect with: ironbird fcu info %s; Ctrl-C ends\n",
-               loaded.scenario.vehicle_folder.c_str(), line.how_to_reach.c_str());
+               loaded.scenario.vehicle_folder.c_str(), line.how_to_reach().c_str());
   // A board has its processor for itself.
   if (const std::string missing = hil_bridge::take_real_time_rights(); !missing.empty()) {
     std::fprintf(stderr, "%s\n", missing.c_str());
   }
   const bool interactive = Terminal::of_standard_error().interactive;
   const Time end = from_seconds(arguments.duration);
-  Time next = machine_time();
+  UnitClock clock(Time(std::llround(static_cast<double>(unit.period().count()) / arguments.time_scale)));
   Time told{};
-  Time lost{};
   while (!interrupt_requested() && (end == Time::zero() || unit.now() < end)) {
-    if (spoiled) spoiled->advance(unit.now());
+    line.advance(unit.now());
     unit.tick();
-    if (spoiled) spoiled->advance(unit.now());
+    line.advance(unit.now());
     tell_events(bus.get(), arguments.can);
-    next += period;
-    const Time behind = machine_time() - next;
-    if (behind > kGivenUp) {
-      lost += behind;
-      next += behind;
-    }
     if (interactive && unit.now() - told >= kTellPeriod) {
-      tell(unit, lost);
+      tell(unit, clock.lost());
       told = unit.now();
     }
-    // A unit that is always late would never leave the core: it runs before all ordinary programs.
-    hil_bridge::transport::sleep_until(std::max(next, machine_time() + period / kLeastRest));
+    clock.wait();
   }
   if (interactive) std::fputs("\n", stderr);
-  if (lost > Time::zero()) {
-    std::fprintf(stderr, "this machine was too slow: the unit's time fell %.1f s behind\n", to_seconds(lost));
-    return kExitInconclusive;
-  }
-  return kExitPass;
+  if (clock.lost() == Time::zero()) return kExitPass;
+  std::fprintf(stderr, "this machine was too slow: the unit's time fell %.1f s behind\n",
+               to_seconds(clock.lost()));
+  return kExitInconclusive;
 }
 
 }  // namespace
@@ -186,9 +232,9 @@ FcuWork declare_fcu_serve(VerbOptions& options) {
       .called("PATH=VALUE");
   options.option("--pty", arguments->pty, "make a pseudo-terminal and this link to it");
   options.option("--udp", arguments->udp, "have this UDP port, and send to --udp-to").within(1, 65535);
-  options
-      .option("--udp-to", arguments->udp_to, "where the companion is, HOST[:PORT]; its usual port is 14520")
-      .shows_default();
+  options.option(
+      "--udp-to", arguments->udp_to,
+      "with --udp: where the companion is, HOST[:PORT]; else localhost, and its usual port is 14520");
   options.option("--duration", arguments->duration, "end after so many seconds").within(0.1, 86400.0);
   options.option("--can", arguments->can, "its motors are on this CAN interface, as DroneCAN controllers");
   options.flag("--can-fd", arguments->can_fd, "in CAN FD frames");

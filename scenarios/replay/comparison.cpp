@@ -30,6 +30,12 @@ Vector3 between(const Vector3& from, const Vector3& to, double share) {
 
 }  // namespace
 
+Vector3 seen_from(const autopilot::LocalOrigin& other, const Vector3& p_N,
+                  const autopilot::LocalOrigin& origin) {
+  if (!other.known || !origin.known) return p_N;
+  return autopilot::local_from_geodetic(autopilot::geodetic_from_local(p_N, origin), other);
+}
+
 void Comparison::Sum::add(double value) {
   if (!std::isfinite(value)) return;
   ++count;
@@ -38,7 +44,8 @@ void Comparison::Sum::add(double value) {
 }
 
 double Comparison::Sum::rms() const {
-  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(squares / static_cast<double>(count));
+  return count == 0 ? std::numeric_limits<double>::quiet_NaN()
+                    : std::sqrt(squares / static_cast<double>(count));
 }
 
 double Comparison::Sum::deviation() const {
@@ -86,8 +93,9 @@ void Comparison::compare(const RecordedAttitude& recorded, double share, const S
 
 void Comparison::compare(const RecordedPosition& recorded, double share, const StateEstimate& ours) {
   EstimateDifference difference{recorded.stamp, no_numbers(), no_numbers(), no_numbers()};
-  const Vector3 p_N = placed(between(before_->p_NB_N, ours.p_NB_N, share), ours.origin);
-  if (recorded.position_known && ours.position_known) difference.p_N.head<2>() = (p_N - recorded.p_NB_N).head<2>();
+  const Vector3 p_N = seen_from(recorded_.origin, between(before_->p_NB_N, ours.p_NB_N, share), ours.origin);
+  if (recorded.position_known && ours.position_known)
+    difference.p_N.head<2>() = (p_N - recorded.p_NB_N).head<2>();
   if (recorded.height_known) difference.p_N.z() = (p_N - recorded.p_NB_N).z();
   if (recorded.velocity_known && ours.position_known)
     difference.v_N = between(before_->v_NB_N(), ours.v_NB_N(), share) - recorded.v_NB_N;
@@ -99,11 +107,6 @@ void Comparison::compare(const RecordedPosition& recorded, double share, const S
   horizontal_.add(difference.p_N.head<2>().norm());
   down_.add(difference.p_N.z());
   velocity_.add(difference.v_N.norm());
-}
-
-Vector3 Comparison::placed(const Vector3& p_N, const autopilot::LocalOrigin& origin) const {
-  if (!recorded_.origin.known || !origin.known) return p_N;
-  return autopilot::local_from_geodetic(autopilot::geodetic_from_local(p_N, origin), recorded_.origin);
 }
 
 std::vector<Metric> Comparison::results() const {
@@ -120,7 +123,8 @@ std::vector<Metric> Comparison::results() const {
       {"heading_difference_rms_deg", kDegreesPerRadian * heading_.rms(), "deg", than + "heading"}};
   const double share = wanted_ == 0 ? std::numeric_limits<double>::quiet_NaN()
                                     : static_cast<double>(compared_) / static_cast<double>(wanted_);
-  all.push_back({"compared_share", share, "1", "of what " + whose + " recorded in the window, how much could be compared"});
+  all.push_back({"compared_share", share, "1",
+                 "of what " + whose + " recorded in the window, how much could be compared"});
   return all;
 }
 

@@ -27,12 +27,16 @@ struct EstimateDifference {
   }
 };
 
+/// Where `p_N` is seen from another origin. @return `p_N` itself while one of them is not known
+autopilot::Vector3 seen_from(const autopilot::LocalOrigin& other, const autopilot::Vector3& p_N,
+                             const autopilot::LocalOrigin& origin);
+
 /// Holds an estimate against a recorded one while it is made: at the recorded one's own times, ours linear in
 /// between.
 ///
-/// Positions are compared on the earth, where both say where their origin lies; where the recorded one does not, from
-/// the place at which it began. Both count heights from what their barometer said at some time, so the mean of the
-/// difference down is taken off.
+/// Positions are compared on the earth, where both say where their origin lies; where the recorded one does
+/// not, from the place at which it began. Both count heights from what their barometer said at some time, so
+/// the mean of the difference down is taken off.
 class Comparison {
  public:
   /// @param recorded  outlives this
@@ -58,7 +62,6 @@ class Comparison {
 
   void compare(const RecordedAttitude& recorded, double share, const autopilot::StateEstimate& ours);
   void compare(const RecordedPosition& recorded, double share, const autopilot::StateEstimate& ours);
-  autopilot::Vector3 placed(const autopilot::Vector3& p_N, const autopilot::LocalOrigin& origin) const;
   bool counts(hil_bridge::Time when) const { return when >= window_.begin && when <= window_.end; }
 
   const RecordedEstimate& recorded_;

@@ -41,8 +41,8 @@ constexpr std::size_t place(int n, int m) {
   return static_cast<std::size_t>(n * (n + 1) / 2 + m);
 }
 
-/// Schmidt semi-normalised associated Legendre functions of the sine of the latitude, and their derivatives with
-/// respect to the latitude.
+/// Schmidt semi-normalised associated Legendre functions of the sine of the latitude, and their derivatives
+/// with respect to the latitude.
 struct Legendre {
   static constexpr std::size_t kSize = place(kWmmDegree + 1, 0);
   std::array<double, kSize> value{};

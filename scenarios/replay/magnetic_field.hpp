@@ -28,8 +28,9 @@ struct MagneticField {
 
 /// The field by the World Magnetic Model, of the edition that is meant for the time, or the nearest.
 ///
-/// Chulliat et al., The US/UK World Magnetic Model for 2025-2030, section 1.2 (equations 3 to 19): spherical harmonics of
-/// degree 12 of the main field and its change. It knows nothing of iron in the ground: typically 0.4 degrees of declination.
+/// Chulliat et al., The US/UK World Magnetic Model for 2025-2030, section 1.2 (equations 3 to 19): spherical
+/// harmonics of degree 12 of the main field and its change. It knows nothing of iron in the ground: typically
+/// 0.4 degrees of declination.
 /// @param latitude, longitude  geodetic, WGS 84, rad
 /// @param altitude  above the ellipsoid, m
 /// @param year  decimal: 2024.5

@@ -23,9 +23,9 @@ namespace rosflight = hil_bridge::rosflight;
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kTeslaPerGauss = 1e-4;
-constexpr double kUsualGnssDelay = 0.11;       // s, PX4's own default
+constexpr double kUsualGnssDelay = 0.11;  // s, PX4's own default
 constexpr std::int64_t kInvalidSample = 0x7fffffff;
-constexpr double kZeroCelsius = 273.15;        // K
+constexpr double kZeroCelsius = 273.15;  // K
 constexpr Time kStatusPeriod = std::chrono::milliseconds(100);
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
@@ -151,8 +151,8 @@ void Px4Reader::find_zero() {
   const UlogSeries* const imu = file_.find("sensor_combined");
   const auto stamp = imu == nullptr ? std::nullopt : imu->find("timestamp");
   if (!stamp || imu->size() == 0) {
-    throw UserError(name_ +
-                    ": has no IMU samples (topic sensor_combined); set SDLOG_PROFILE so that they are logged");
+    throw UserError(
+        name_ + ": has no IMU samples (topic sensor_combined); set SDLOG_PROFILE so that they are logged");
   }
   zero_ = imu->integer(0, *stamp);
 }
@@ -212,11 +212,14 @@ void Px4Reader::read_imu() {
     if (!force.allFinite() || !rate.allFinite()) ++invalid;
     const Eigen::Vector3f f = force.cast<float>();
     const Eigen::Vector3f w = rate.cast<float>();
-    messages().push_back({when, rosflight::SmallImu{microseconds(when), f.x(), f.y(), f.z(), w.x(), w.y(), w.z(), 0.0F}});
+    messages().push_back(
+        {when, rosflight::SmallImu{microseconds(when), f.x(), f.y(), f.z(), w.x(), w.y(), w.z(), 0.0F}});
   }
   out_.flight.end = last;
-  if (backwards > 0) remark(std::to_string(backwards) + " samples of the IMU whose time does not go on passed over");
-  if (invalid > 0) remark(std::to_string(invalid) + " samples of the IMU are not valid: the estimators do without them");
+  if (backwards > 0)
+    remark(std::to_string(backwards) + " samples of the IMU whose time does not go on passed over");
+  if (invalid > 0)
+    remark(std::to_string(invalid) + " samples of the IMU are not valid: the estimators do without them");
 }
 
 /// The wire's word for PX4's kind of fix.
@@ -241,7 +244,8 @@ std::uint8_t fix_type(std::int64_t px4) {
 
 void Px4Reader::read_gnss() {
   const Records gnss = first_of({"vehicle_gps_position", "sensor_gps"});
-  out_.gnss_delay = choice_.gnss_delay.value_or(1e-3 * file_.parameter("EKF2_GPS_DELAY").value_or(1e3 * kUsualGnssDelay));
+  out_.gnss_delay =
+      choice_.gnss_delay.value_or(1e-3 * file_.parameter("EKF2_GPS_DELAY").value_or(1e3 * kUsualGnssDelay));
   const Time delay(std::llround(out_.gnss_delay * 1e9));
   const bool in_degrees = gnss.has("latitude_deg");
   const auto latitude = gnss.find(in_degrees ? "latitude_deg" : "lat");
@@ -252,7 +256,9 @@ void Px4Reader::read_gnss() {
   const auto fix = gnss.find("fix_type");
   const auto velocity_valid = gnss.find("vel_ned_valid");
   const auto utc = gnss.find("time_utc_usec");
-  const auto float_at = [&](std::size_t k, const char* field) { return static_cast<float>(gnss.number(k, gnss.find(field))); };
+  const auto float_at = [&](std::size_t k, const char* field) {
+    return static_cast<float>(gnss.number(k, gnss.find(field)));
+  };
   int usable = 0;
   for (std::size_t k = 0; k < gnss.size(); ++k) {
     const Time when = gnss.published(k);
@@ -268,7 +274,8 @@ void Px4Reader::read_gnss() {
     message.h_acc = float_at(k, "eph");
     message.v_acc = float_at(k, "epv");
     message.s_acc = float_at(k, "s_variance_m_s");
-    message.num_sat = static_cast<std::uint8_t>(std::clamp<std::int64_t>(gnss.integer(k, gnss.find("satellites_used")), 0, 255));
+    message.num_sat = static_cast<std::uint8_t>(
+        std::clamp<std::int64_t>(gnss.integer(k, gnss.find("satellites_used")), 0, 255));
     const bool moving_known = !velocity_valid || gnss.integer(k, velocity_valid) != 0;
     message.fix_type = moving_known ? fix_type(gnss.integer(k, fix)) : 0;
     const std::int64_t us = gnss.integer(k, utc);
@@ -340,15 +347,17 @@ void Px4Reader::choose_mag() {
                                     [&](const MagCandidate& mag) { return mag.instance == *choice_.mag; });
     if (named == out_.mags.end()) {
       std::string there;
-      for (const MagCandidate& mag : out_.mags) there += (there.empty() ? "" : ", ") + std::to_string(mag.instance);
+      for (const MagCandidate& mag : out_.mags)
+        there += (there.empty() ? "" : ", ") + std::to_string(mag.instance);
       throw UserError(name_ + ": has no magnetometer " + std::to_string(*choice_.mag) +
                       (there.empty() ? "; it has none" : "; there are: " + there));
     }
     out_.mag = *choice_.mag;
     return;
   }
-  const auto best = std::min_element(out_.mags.begin(), out_.mags.end(),
-                                     [](const MagCandidate& one, const MagCandidate& other) { return one.misfit < other.misfit; });
+  const auto best = std::min_element(
+      out_.mags.begin(), out_.mags.end(),
+      [](const MagCandidate& one, const MagCandidate& other) { return one.misfit < other.misfit; });
   if (best != out_.mags.end() && best->samples > 0) out_.mag = best->instance;
 }
 
@@ -368,7 +377,9 @@ void Px4Reader::read_mag() {
 void Px4Reader::read_baro() {
   const Records air = first_of({"vehicle_air_data", "sensor_baro", "sensor_combined"});
   const bool has_temperature = air.has("baro_temp_celcius");
-  const auto temperature = air.find(has_temperature ? "baro_temp_celcius" : air.has("ambient_temperature") ? "ambient_temperature" : "temperature");
+  const auto temperature = air.find(has_temperature                  ? "baro_temp_celcius"
+                                    : air.has("ambient_temperature") ? "ambient_temperature"
+                                                                     : "temperature");
   const auto pressure = air.find(air.has("baro_pressure_pa") ? "baro_pressure_pa" : "pressure");
   const auto height = air.find("baro_alt_meter");
   if (!pressure && !height) remark("it has no barometer: the height cannot be known, and no filter starts");
@@ -378,7 +389,9 @@ void Px4Reader::read_baro() {
     double pascal = pressure ? air.number(k, pressure) : autopilot::standard_pressure(air.number(k, height));
     constexpr double kLessThanAnyPascal = 2000.0;  // older versions tell hectopascal
     if (pascal < kLessThanAnyPascal) pascal *= 100.0;
-    messages().push_back({when, rosflight::SmallBaro{0.0F, static_cast<float>(pascal), static_cast<float>(air.number(k, temperature) + kZeroCelsius)}});
+    messages().push_back(
+        {when, rosflight::SmallBaro{0.0F, static_cast<float>(pascal),
+                                    static_cast<float>(air.number(k, temperature) + kZeroCelsius)}});
   }
 }
 
@@ -389,8 +402,10 @@ void Px4Reader::read_status() {
   std::size_t next = 0;
   bool armed = false;
   for (Time now{}; now <= out_.flight.end; now += kStatusPeriod) {
-    for (; next < status.size() && status.published(next) <= now; ++next) armed = status.integer(next, arming) == kArmed;
-    messages().push_back({now, rosflight::RosflightStatus{.armed = static_cast<std::uint8_t>(armed ? 1 : 0)}});
+    for (; next < status.size() && status.published(next) <= now; ++next)
+      armed = status.integer(next, arming) == kArmed;
+    messages().push_back(
+        {now, rosflight::RosflightStatus{.armed = static_cast<std::uint8_t>(armed ? 1 : 0)}});
   }
 }
 
@@ -416,25 +431,31 @@ void Px4Reader::read_estimate() {
   const Records attitude = records("vehicle_attitude");
   const auto q = attitude.find("q");
   for (std::size_t k = 0; q && k < attitude.size(); ++k) {
-    const Quaternion q_NB(attitude.number(k, q, 0), attitude.number(k, q, 1), attitude.number(k, q, 2), attitude.number(k, q, 3));
+    const Quaternion q_NB(attitude.number(k, q, 0), attitude.number(k, q, 1), attitude.number(k, q, 2),
+                          attitude.number(k, q, 3));
     const bool is_one = std::abs(q_NB.norm() - 1.0) < 0.1;
-    if (is_one && is_within(attitude.measured(k))) px4.attitudes.push_back({attitude.measured(k), q_NB.normalized()});
+    if (is_one && is_within(attitude.measured(k)))
+      px4.attitudes.push_back({attitude.measured(k), q_NB.normalized()});
   }
   const Records local = records("vehicle_local_position");
   const auto field = [&](const char* name) { return local.find(name); };
-  const auto valid = [&](std::size_t k, const char* name) { return !field(name) || local.integer(k, field(name)) != 0; };
+  const auto valid = [&](std::size_t k, const char* name) {
+    return !field(name) || local.integer(k, field(name)) != 0;
+  };
   for (std::size_t k = 0; k < local.size(); ++k) {
     RecordedPosition position{.stamp = local.measured(k)};
     if (!is_within(position.stamp)) continue;
     position.p_NB_N << local.number(k, field("x")), local.number(k, field("y")), local.number(k, field("z"));
-    position.v_NB_N << local.number(k, field("vx")), local.number(k, field("vy")), local.number(k, field("vz"));
+    position.v_NB_N << local.number(k, field("vx")), local.number(k, field("vy")),
+        local.number(k, field("vz"));
     position.position_known = valid(k, "xy_valid") && position.p_NB_N.head<2>().allFinite();
     position.height_known = valid(k, "z_valid") && std::isfinite(position.p_NB_N.z());
     position.velocity_known = valid(k, "v_xy_valid") && valid(k, "v_z_valid") && position.v_NB_N.allFinite();
     const double latitude = local.number(k, field("ref_lat"));
     const double longitude = local.number(k, field("ref_lon"));
     if (!px4.origin.known && position.position_known && std::isfinite(latitude) && std::isfinite(longitude)) {
-      px4.origin = {true, latitude * kRadiansPerDegree, longitude * kRadiansPerDegree, local.number(k, field("ref_alt"))};
+      px4.origin = {true, latitude * kRadiansPerDegree, longitude * kRadiansPerDegree,
+                    local.number(k, field("ref_alt"))};
     }
     px4.positions.push_back(position);
   }

@@ -11,8 +11,8 @@ namespace ironbird::scenarios {
 
 /// What is to be taken from a log of which there is more than one, or which the log does not tell.
 struct Px4Choice {
-  std::optional<int> mag;           ///< instance of the magnetometer; none: the one that fits the earth's field best
-  std::optional<double> gnss_delay; ///< s, from measurement to arrival; none: what the log's parameters say
+  std::optional<int> mag;  ///< instance of the magnetometer; none: the one that fits the earth's field best
+  std::optional<double> gnss_delay;  ///< s, from measurement to arrival; none: what the log's parameters say
 };
 
 /// A magnetometer of a log, and how well it fits the field of the earth.
@@ -29,22 +29,24 @@ struct MagCandidate {
     visit("samples", self.samples, "1", "that it has");
     visit("strength", self.strength, "T", "mean");
     visit("spread", self.spread, "1", "standard deviation of the strength, relative");
-    visit("misfit", self.misfit, "1", "how far strength, dip and their spread are from the earth's, relative; the least is taken");
+    visit("misfit", self.misfit, "1",
+          "how far strength, dip and their spread are from the earth's, relative; the least is taken");
   }
 };
 
 /// A flight out of a PX4 log, and what was chosen on the way.
 struct Px4Flight {
   RecordedFlight flight;
-  std::vector<MagCandidate> mags;  ///< by instance
-  int mag = -1;                    ///< the one that was taken; -1: there is none
-  double gnss_delay = 0.0;         ///< s
-  std::optional<double> unix_time; ///< s, UTC, of the first fix that tells it
-  bool simulated = false;          ///< no vehicle flew
+  std::vector<MagCandidate> mags;   ///< by instance
+  int mag = -1;                     ///< the one that was taken; -1: there is none
+  double gnss_delay = 0.0;          ///< s
+  std::optional<double> unix_time;  ///< s, UTC, of the first fix that tells it
+  bool simulated = false;           ///< no vehicle flew
 };
 
-/// Takes sensors and estimates of PX4 1.8 to 1.15 out of a log: integer and double latitudes, both layouts of the
-/// barometer, several magnetometers. @throws UserError naming the file when it has no IMU, or no such magnetometer
+/// Takes sensors and estimates of PX4 1.8 to 1.15 out of a log: integer and double latitudes, both layouts of
+/// the barometer, several magnetometers. @throws UserError naming the file when it has no IMU, or no such
+/// magnetometer
 Px4Flight read_px4_flight(const UlogFile& file, const std::string& name, const Px4Choice& choice = {});
 
 }  // namespace ironbird::scenarios

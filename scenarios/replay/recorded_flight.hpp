@@ -34,11 +34,28 @@ struct RecordedPosition {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("stamp", self.stamp, "ns", "when they were valid");
-    visit("p_NB_N", self.p_NB_N, "m", "position from the recorded estimate's own origin");
+    visit("p_NB_N", self.p_NB_N, "m",
+          "position; in a log from the origin of the estimate that was made anew, where both are known");
     visit("v_NB_N", self.v_NB_N, "m/s", "velocity over ground");
     visit("position_known", self.position_known, "1", "whoever estimated it believed north and east");
     visit("height_known", self.height_known, "1", "and down");
     visit("velocity_known", self.velocity_known, "1", "and the velocity");
+  }
+};
+
+/// A fix as the receiver told it, in the frame of an estimate.
+struct RecordedFix {
+  hil_bridge::Time stamp{};
+  autopilot::Vector3 p_N = autopilot::Vector3::Zero();
+  autopilot::Vector3 v_N = autopilot::Vector3::Zero();
+  double horizontal_accuracy = 0.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("stamp", self.stamp, "ns", "when it was measured");
+    visit("p_N", self.p_N, "m", "position from the estimate's origin");
+    visit("v_N", self.v_N, "m/s", "velocity over ground");
+    visit("horizontal_accuracy", self.horizontal_accuracy, "m", "the receiver's own estimate, 1 sigma");
   }
 };
 
@@ -56,16 +73,16 @@ struct Interval {
   hil_bridge::Time end{};
 };
 
-/// A flight that somebody else's autopilot or recorder logged: its sensors as a flight-control unit would have
-/// sent them, and what was estimated at the time. Times are since the first sample of the IMU.
+/// A flight that somebody else's autopilot or recorder logged: its sensors as a flight-control unit would
+/// have sent them, and what was estimated at the time. Times are since the first sample of the IMU.
 struct RecordedFlight {
-  std::string what;                            ///< "PX4 1.14.0 on PX4_FMU_V6C"
-  std::vector<hil_bridge::Arrival> messages;   ///< by time; of those at one time the IMU's is the last
-  std::vector<RecordedEstimate> estimates;     ///< the first is compared with
-  std::vector<Interval> airborne;              ///< as the recorder's own land detector told
-  hil_bridge::Time end{};                      ///< of the last sample of the IMU
-  std::optional<double> declination;           ///< rad, as the recorder used it at last; may be stale
-  std::vector<std::string> remarks;            ///< what is missing or odd, a line each
+  std::string what;                           ///< "PX4 1.14.0 on PX4_FMU_V6C"
+  std::vector<hil_bridge::Arrival> messages;  ///< by time; of those at one time the IMU's is the last
+  std::vector<RecordedEstimate> estimates;    ///< the first is compared with
+  std::vector<Interval> airborne;             ///< as the recorder's own land detector told
+  hil_bridge::Time end{};                     ///< of the last sample of the IMU
+  std::optional<double> declination;          ///< rad, as the recorder used it at last; may be stale
+  std::vector<std::string> remarks;           ///< what is missing or odd, a line each
 };
 
 }  // namespace ironbird::scenarios

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "autopilot/math/local_map.hpp"
 #include "hil_bridge/translate/sensor_frame_builder.hpp"
 #include "scenarios/bench/operator.hpp"
 #include "scenarios/bench/run_time.hpp"
@@ -29,7 +30,8 @@ std::string seconds_text(Time time) {
 Interval usual_window(const RecordedFlight& flight) {
   const Interval whole{Time::zero(), flight.end};
   if (flight.airborne.empty()) return whole;
-  const Interval inside{flight.airborne.front().begin + kAfterTakeOff, flight.airborne.back().end - kBeforeLanding};
+  const Interval inside{flight.airborne.front().begin + kAfterTakeOff,
+                        flight.airborne.back().end - kBeforeLanding};
   return inside.begin < inside.end ? inside : whole;
 }
 
@@ -46,8 +48,8 @@ Replay::Replay(const RecordedFlight& flight, const LoadedScenario& loaded, const
 void Replay::wire_log(const LoadedScenario& loaded) {
   log_ = std::make_unique<FlightLog>(
       options_.log_file,
-      McapOptions{.journal = loaded.scenario.record.journal, .compress = loaded.scenario.record.compress}, loaded,
-      FlightLog::Sources{*autopilot_, telemetry_, nullptr});
+      McapOptions{.journal = loaded.scenario.record.journal, .compress = loaded.scenario.record.compress},
+      loaded, FlightLog::Sources{*autopilot_, telemetry_, nullptr});
 }
 
 ReplayResult Replay::run() {
@@ -61,7 +63,7 @@ ReplayResult Replay::run() {
     if (frame == nullptr) continue;
     autopilot_->step(*frame);
     watch_health();
-    if (log_) write_recorded(arrival.when);
+    if (log_) write_recorded(*frame, arrival.when);
     if (comparison_) {
       for (const EstimateDifference& difference : comparison_->observe(autopilot_->signals().estimate)) {
         if (log_) log_->recorder().write_once("/compared/difference", difference, arrival.when);
@@ -83,13 +85,27 @@ ReplayResult Replay::run() {
   return result;
 }
 
-void Replay::write_recorded(Time now) {
+void Replay::write_recorded(const autopilot::SensorFrame& frame, Time now) {
+  const autopilot::LocalOrigin& here = autopilot_->signals().estimate.origin;
+  Recorder& recorder = log_->recorder();
+  if (frame.gnss && autopilot::is_usable(frame.gnss->fix) && here.known) {
+    const autopilot::GnssSample& fix = *frame.gnss;
+    const autopilot::Vector3 p_N =
+        autopilot::local_from_geodetic({fix.latitude, fix.longitude, fix.altitude}, here);
+    recorder.write_once("/recorded/fix", RecordedFix{fix.stamp, p_N, fix.v_NB_N, fix.horizontal_accuracy},
+                        now);
+  }
   if (flight_.estimates.empty()) return;
   const RecordedEstimate& recorded = flight_.estimates.front();
-  for (; next_attitude_ < recorded.attitudes.size() && recorded.attitudes[next_attitude_].stamp <= now; ++next_attitude_)
-    log_->recorder().write_once("/recorded/attitude", recorded.attitudes[next_attitude_], now);
-  for (; next_position_ < recorded.positions.size() && recorded.positions[next_position_].stamp <= now; ++next_position_)
-    log_->recorder().write_once("/recorded/position", recorded.positions[next_position_], now);
+  for (; next_attitude_ < recorded.attitudes.size() && recorded.attitudes[next_attitude_].stamp <= now;
+       ++next_attitude_)
+    recorder.write_once("/recorded/attitude", recorded.attitudes[next_attitude_], now);
+  for (; next_position_ < recorded.positions.size() && recorded.positions[next_position_].stamp <= now;
+       ++next_position_) {
+    RecordedPosition position = recorded.positions[next_position_];
+    position.p_NB_N = seen_from(here, position.p_NB_N, recorded.origin);
+    recorder.write_once("/recorded/position", position, now);
+  }
 }
 
 void Replay::watch_health() {
@@ -107,7 +123,8 @@ std::vector<std::string> Replay::findings() const {
   } else if (*ready_ > window_.begin) {
     all.push_back("the estimator was ready after " + seconds_text(*ready_) + ", in the window that counts");
   }
-  if (losses_ > 0) all.push_back("the estimate was lost " + std::to_string(losses_) + (losses_ == 1 ? " time" : " times"));
+  if (losses_ > 0)
+    all.push_back("the estimate was lost " + std::to_string(losses_) + (losses_ == 1 ? " time" : " times"));
   return all;
 }
 

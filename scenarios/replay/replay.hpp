@@ -17,9 +17,9 @@ namespace ironbird::scenarios {
 
 /// What a replay does beside estimating.
 struct ReplayOptions {
-  std::filesystem::path log_file;                       ///< empty: no log
-  std::optional<Interval> window;                       ///< what counts; none: airborne, without take-off and landing
-  std::function<bool(hil_bridge::Time)> on_progress;    ///< asked every second of the flight; false: stop
+  std::filesystem::path log_file;  ///< empty: no log
+  std::optional<Interval> window;  ///< what counts; none: airborne, without take-off and landing
+  std::function<bool(hil_bridge::Time)> on_progress;  ///< asked every second of the flight; false: stop
 };
 
 /// What came of it.
@@ -32,16 +32,17 @@ struct ReplayResult {
   bool interrupted = false;
 };
 
-/// The window that counts unless another is named: from three seconds after the first take-off to a second before the
-/// last landing; the whole flight when nobody told of either.
+/// The window that counts unless another is named: from three seconds after the first take-off to a second
+/// before the last landing; the whole flight when nobody told of either.
 Interval usual_window(const RecordedFlight& flight);
 
-/// Feeds what was recorded in a flight to an autopilot, through the same door as a unit's messages, and holds its
-/// estimate against what was estimated then. What it commands goes nowhere.
+/// Feeds what was recorded in a flight to an autopilot, through the same door as a unit's messages, and holds
+/// its estimate against what was estimated then. What it commands goes nowhere.
 class Replay {
  public:
   /// @param flight, loaded  outlive this
-  /// @throws std::invalid_argument when the autopilot cannot be wired, std::runtime_error when the log cannot be made
+  /// @throws std::invalid_argument when the autopilot cannot be wired, std::runtime_error when the log cannot
+  /// be made
   Replay(const RecordedFlight& flight, const LoadedScenario& loaded, const autopilot::Modules& modules,
          ReplayOptions options);
 
@@ -52,7 +53,8 @@ class Replay {
 
  private:
   void wire_log(const LoadedScenario& loaded);
-  void write_recorded(hil_bridge::Time now);
+  /// What was recorded, in the frame of the estimate that is made now.
+  void write_recorded(const autopilot::SensorFrame& frame, hil_bridge::Time now);
   void watch_health();
   std::vector<std::string> findings() const;
 
@@ -61,11 +63,11 @@ class Replay {
   Interval window_;
   std::unique_ptr<autopilot::Autopilot> autopilot_;
   hil_bridge::Telemetry telemetry_;
-  std::unique_ptr<FlightLog> log_;          // null: none is wanted
-  std::optional<Comparison> comparison_;    // none: there is nothing to compare with
+  std::unique_ptr<FlightLog> log_;        // null: none is wanted
+  std::optional<Comparison> comparison_;  // none: there is nothing to compare with
   std::size_t next_attitude_ = 0;
   std::size_t next_position_ = 0;
-  std::optional<hil_bridge::Time> ready_;   // when there was an estimate
+  std::optional<hil_bridge::Time> ready_;  // when there was an estimate
   int losses_ = 0;
   bool lost_ = false;
 };

@@ -88,19 +88,22 @@ Declination declination_of(const ReplayArguments& arguments, const Px4Flight& px
   if (!arguments.declination.empty()) {
     const auto named = number_of(arguments.declination);
     if (!named || std::abs(*named) > 180.0)
-      throw ConfigError("--declination " + arguments.declination + ": must be an angle in degrees, east positive");
+      throw ConfigError("--declination " + arguments.declination +
+                        ": must be an angle in degrees, east positive");
     return {*named / kDegrees, "as named"};
   }
   const auto fix = first_fix(px4.flight);
   if (!fix) return {0.0, "0, for there is no place to ask for"};
-  if (!px4.unix_time) remarks.emplace_back("its fixes do not tell the date: the declination is that of the newest model");
+  if (!px4.unix_time)
+    remarks.emplace_back("its fixes do not tell the date: the declination is that of the newest model");
   constexpr double kNewest = 2025.0;
   const double year = px4.unix_time ? decimal_year(*px4.unix_time) : kNewest;
   const MagneticField field =
       magnetic_field(fix->lat / kDegrees, fix->lon / kDegrees, static_cast<double>(fix->height), year);
   if (!field.current)
-    remarks.push_back("no World Magnetic Model that is known is meant for its date: the declination is that of " +
-                      std::to_string(field.edition));
+    remarks.push_back(
+        "no World Magnetic Model that is known is meant for its date: the declination is that of " +
+        std::to_string(field.edition));
   return {field.declination, "World Magnetic Model " + std::to_string(field.edition)};
 }
 
@@ -108,7 +111,8 @@ LoadedScenario load(const ReplayArguments& arguments, const Declination& declina
                     const autopilot::Modules& modules) {
   std::vector<std::pair<std::string, std::string>> settings;
   if (!arguments.vehicle.empty()) settings.emplace_back("vehicle", arguments.vehicle);
-  settings.emplace_back("environment.magnetic_field.declination", std::to_string(declination.angle * kDegrees) + " deg");
+  settings.emplace_back("environment.magnetic_field.declination",
+                        std::to_string(declination.angle * kDegrees) + " deg");
   for (auto& setting : split_settings(arguments.settings)) settings.push_back(std::move(setting));
   std::filesystem::path file = arguments.scenario;
   if (file.empty()) file = find_named(kUsualScenario, search_folders(kUsualScenario));
@@ -118,10 +122,12 @@ LoadedScenario load(const ReplayArguments& arguments, const Declination& declina
 void tell(const Px4Flight& px4, const Declination& declination, const ReplayResult& result) {
   std::fprintf(stderr, "%s, %.1f s of IMU samples\n", px4.flight.what.c_str(), to_seconds(px4.flight.end));
   for (const MagCandidate& mag : px4.mags) {
-    std::fprintf(stderr, "  magnetometer %d%s: %.1f uT, spread %.1f %%, off the earth's field by %.1f %%\n", mag.instance,
-                 mag.instance == px4.mag ? " (taken)" : "", 1e6 * mag.strength, 1e2 * mag.spread, 1e2 * mag.misfit);
+    std::fprintf(stderr, "  magnetometer %d%s: %.1f uT, spread %.1f %%, off the earth's field by %.1f %%\n",
+                 mag.instance, mag.instance == px4.mag ? " (taken)" : "", 1e6 * mag.strength,
+                 1e2 * mag.spread, 1e2 * mag.misfit);
   }
-  std::fprintf(stderr, "  declination %+.2f deg (%s); fixes %.0f ms old on arrival; compared from %.1f to %.1f s\n",
+  std::fprintf(stderr,
+               "  declination %+.2f deg (%s); fixes %.0f ms old on arrival; compared from %.1f to %.1f s\n",
                declination.angle * kDegrees, declination.source.c_str(), 1e3 * px4.gnss_delay,
                to_seconds(result.window.begin), to_seconds(result.window.end));
   for (const Metric& metric : result.metrics)
@@ -152,7 +158,8 @@ int replay(const ReplayArguments& arguments, const autopilot::Modules& modules) 
   };
   Replay work(px4.flight, loaded, modules, options);
   const ReplayResult result = work.run();
-  const Verdict verdict = judge_replay(result, {name, loaded.scenario.title, loaded.scenario.seed, loaded.digest}, bounds);
+  const Verdict verdict =
+      judge_replay(result, {name, loaded.scenario.title, loaded.scenario.seed, loaded.digest}, bounds);
   write_verdict(verdict, folder / "verdict.json");
   listener.judged(verdict);
   tell(px4, declination, result);
@@ -168,34 +175,43 @@ int replay(const ReplayArguments& arguments, const autopilot::Modules& modules) 
 }  // namespace
 
 Verb replay_verb() {
-  return {"replay", "feed a recorded flight to the estimators", [](VerbOptions& options) {
-            auto arguments = std::make_shared<ReplayArguments>();
-            options.option("flight", arguments->flight, "log of a PX4 autopilot, FLIGHT.ulg").required();
-            options.option("--vehicle", arguments->vehicle, "folder of the vehicle whose autopilot stands in");
-            options.option("--scenario", arguments->scenario, "which autopilot, with which parameters; its flight is not flown");
-            options.option("--set", arguments->settings, "changes the scenario; may be repeated")
-                .one_word_each()
-                .called("PATH=VALUE");
-            options.option("--mag", arguments->mag, "instance of the magnetometer; else the one that fits the earth's field best")
-                .within(0, 255);
-            options.option("--declination", arguments->declination, "deg, east positive; else by the World Magnetic Model");
-            options.option("--window", arguments->window, "what is compared, BEGIN:END in seconds; else the flight without take-off and landing");
-            options.option("--gnss-delay", arguments->gnss_delay, "age of a fix on arrival, s; else as the log's parameters say")
-                .within(0.0, 1.0);
-            options.option("--at-most", arguments->bounds, "a figure that must not be greater; may be repeated")
-                .one_word_each()
-                .called("NAME=VALUE");
-            options.option("--out", arguments->out, "folder for the results").shows_default();
-            options.flag("--no-log", arguments->no_log, "write no log and no report, only the verdict");
-            options.flag("--no-report", arguments->no_report, "write no report");
-            options.flag("--json", arguments->json, "the verdict as JSON on standard output");
-            options.footer(
-                "Examples:\n"
-                "  ironbird replay flight.ulg\n"
-                "  ironbird replay flight.ulg --set autopilot.estimator.kind=error_state\n"
-                "  ironbird replay flight.ulg --mag 1 --window 5:60 --at-most horizontal_difference_rms_m=0.25");
-            return [arguments](const autopilot::Modules& modules) { return replay(*arguments, modules); };
-          }};
+  return {
+      "replay", "feed a recorded flight to the estimators", [](VerbOptions& options) {
+        auto arguments = std::make_shared<ReplayArguments>();
+        options.option("flight", arguments->flight, "log of a PX4 autopilot, FLIGHT.ulg").required();
+        options.option("--vehicle", arguments->vehicle, "folder of the vehicle whose autopilot stands in");
+        options.option("--scenario", arguments->scenario,
+                       "which autopilot, with which parameters; its flight is not flown");
+        options.option("--set", arguments->settings, "changes the scenario; may be repeated")
+            .one_word_each()
+            .called("PATH=VALUE");
+        options
+            .option("--mag", arguments->mag,
+                    "instance of the magnetometer; else the one that fits the earth's field best")
+            .within(0, 255);
+        options.option("--declination", arguments->declination,
+                       "deg, east positive; else by the World Magnetic Model");
+        options.option(
+            "--window", arguments->window,
+            "what is compared, BEGIN:END in seconds; else the flight without take-off and landing");
+        options
+            .option("--gnss-delay", arguments->gnss_delay,
+                    "age of a fix on arrival, s; else as the log's parameters say")
+            .within(0.0, 1.0);
+        options.option("--at-most", arguments->bounds, "a figure that must not be greater; may be repeated")
+            .one_word_each()
+            .called("NAME=VALUE");
+        options.option("--out", arguments->out, "folder for the results").shows_default();
+        options.flag("--no-log", arguments->no_log, "write no log and no report, only the verdict");
+        options.flag("--no-report", arguments->no_report, "write no report");
+        options.flag("--json", arguments->json, "the verdict as JSON on standard output");
+        options.footer(
+            "Examples:\n"
+            "  ironbird replay flight.ulg\n"
+            "  ironbird replay flight.ulg --set autopilot.estimator.kind=error_state\n"
+            "  ironbird replay flight.ulg --mag 1 --window 5:60 --at-most horizontal_difference_rms_m=0.25");
+        return [arguments](const autopilot::Modules& modules) { return replay(*arguments, modules); };
+      }};
 }
 
 }  // namespace ironbird::scenarios

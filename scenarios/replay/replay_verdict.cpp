@@ -54,9 +54,9 @@ CheckResult check_of_health(const ReplayResult& result) {
   check.kind = "health";
   check.margin = check.time = kNoTime;
   check.outcome = result.ready && !result.lost_at_end ? Outcome::kPass : Outcome::kFail;
-  check.explanation = !result.ready              ? "it never had an estimate"
-                      : result.lost_at_end       ? "it says that it is lost"
-                                                 : "ready after " + figure(*result.ready) + " s";
+  check.explanation = !result.ready        ? "it never had an estimate"
+                      : result.lost_at_end ? "it says that it is lost"
+                                           : "ready after " + figure(*result.ready) + " s";
   return check;
 }
 
@@ -79,7 +79,8 @@ ReplayBound parse_replay_bound(const std::string& text) {
   return bound;
 }
 
-Verdict judge_replay(const ReplayResult& result, const RunIdentity& run, const std::vector<ReplayBound>& bounds) {
+Verdict judge_replay(const ReplayResult& result, const RunIdentity& run,
+                     const std::vector<ReplayBound>& bounds) {
   Verdict verdict;
   verdict.run = run;
   verdict.metrics = result.metrics;

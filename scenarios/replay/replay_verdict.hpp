@@ -24,6 +24,7 @@ struct ReplayBound {
 ReplayBound parse_replay_bound(const std::string& text);
 
 /// Judges a replay: the estimator has to start, and must not lose the estimate for good; bounds have to hold.
-Verdict judge_replay(const ReplayResult& result, const RunIdentity& run, const std::vector<ReplayBound>& bounds);
+Verdict judge_replay(const ReplayResult& result, const RunIdentity& run,
+                     const std::vector<ReplayBound>& bounds);
 
 }  // namespace ironbird::scenarios

@@ -163,17 +163,22 @@ std::vector<std::string> UlogFile::complaints() const {
   const UlogDamage& found = damage_;
   if (found.newer_version > 0)
     all.push_back("it says version " + std::to_string(found.newer_version) + "; versions 0 and 1 are known");
-  if (found.cut_bytes > 0) all.push_back("it ends in a message without an end: " + times(found.cut_bytes, "byte") + " lost");
+  if (found.cut_bytes > 0)
+    all.push_back("it ends in a message without an end: " + times(found.cut_bytes, "byte") + " lost");
   if (found.skipped_bytes > 0) {
-    all.push_back("it is damaged in " + times(static_cast<std::uint64_t>(found.skipped_places), "place") + ": " +
-                  times(found.skipped_bytes, "byte") + " passed over");
+    all.push_back("it is damaged in " + times(static_cast<std::uint64_t>(found.skipped_places), "place") +
+                  ": " + times(found.skipped_bytes, "byte") + " passed over");
   }
-  if (found.unknown_messages > 0) all.push_back(times(found.unknown_messages, "message") + " of unknown types passed over");
-  if (found.faulty_messages > 0) all.push_back(times(found.faulty_messages, "message") + " that cannot be read passed over");
+  if (found.unknown_messages > 0)
+    all.push_back(times(found.unknown_messages, "message") + " of unknown types passed over");
+  if (found.faulty_messages > 0)
+    all.push_back(times(found.faulty_messages, "message") + " that cannot be read passed over");
   if (found.homeless_records > 0)
-    all.push_back(times(found.homeless_records, "record") + " of topics without announcement or format passed over");
+    all.push_back(times(found.homeless_records, "record") +
+                  " of topics without announcement or format passed over");
   if (found.misfit_records > 0)
-    all.push_back(times(found.misfit_records, "record") + " that are not as long as their format passed over");
+    all.push_back(times(found.misfit_records, "record") +
+                  " that are not as long as their format passed over");
   if (found.dropouts > 0) {
     all.push_back("the autopilot's logger lost data " + times(found.dropouts, "time") + ", " +
                   std::to_string(found.dropout_milliseconds) + " ms together");

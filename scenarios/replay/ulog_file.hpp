@@ -65,7 +65,7 @@ struct UlogChange {
 
 /// Something that the autopilot said.
 struct UlogText {
-  char level = '6';            ///< '0' emergency to '7' debug, as syslog
+  char level = '6';             ///< '0' emergency to '7' debug, as syslog
   std::uint64_t timestamp = 0;  ///< us since boot
   std::optional<std::uint16_t> tag;
   std::string text;
@@ -76,20 +76,20 @@ struct UlogDamage {
   std::uint64_t cut_bytes = 0;      ///< of a message that has no end: power was cut
   std::uint64_t skipped_bytes = 0;  ///< in the middle, where no message could be made out
   int skipped_places = 0;
-  std::uint64_t unknown_messages = 0;    ///< of types that this reader does not know: passed over
-  std::uint64_t faulty_messages = 0;     ///< of known types, that cannot be
-  std::uint64_t homeless_records = 0;    ///< of topics that were never announced, or have no format
-  std::uint64_t misfit_records = 0;      ///< whose length is not their format's
-  std::uint64_t dropouts = 0;            ///< times that the autopilot's logger lost something
+  std::uint64_t unknown_messages = 0;      ///< of types that this reader does not know: passed over
+  std::uint64_t faulty_messages = 0;       ///< of known types, that cannot be
+  std::uint64_t homeless_records = 0;      ///< of topics that were never announced, or have no format
+  std::uint64_t misfit_records = 0;        ///< whose length is not their format's
+  std::uint64_t dropouts = 0;              ///< times that the autopilot's logger lost something
   std::uint64_t dropout_milliseconds = 0;  ///< how long those were, together
-  int newer_version = 0;                 ///< of the format than this reader knows; 0: not newer
+  int newer_version = 0;                   ///< of the format than this reader knows; 0: not newer
 };
 
 /// A ULog file, the log of a PX4 autopilot, read into memory.
 ///
-/// Reads everything that is whole: a file that is cut anywhere gives what was before the cut, and after damage
-/// in the middle reading goes on at the next message that can be made out. Memory stays within a constant
-/// times the size of the file.
+/// Reads everything that is whole: a file that is cut anywhere gives what was before the cut, and after
+/// damage in the middle reading goes on at the next message that can be made out. Memory stays within a
+/// constant times the size of the file.
 class UlogFile {
  public:
   /// @throws UserError naming the file when it cannot be opened, is no ULog, or needs what this reader lacks
@@ -109,7 +109,9 @@ class UlogFile {
   const std::map<std::string, UlogNumber, std::less<>>& parameters() const { return parameters_; }
   const std::vector<UlogChange>& changes() const { return changes_; }
   /// Default values: of the firmware, and of the vehicle's configuration.
-  const std::map<std::string, UlogNumber, std::less<>>& firmware_defaults() const { return firmware_defaults_; }
+  const std::map<std::string, UlogNumber, std::less<>>& firmware_defaults() const {
+    return firmware_defaults_;
+  }
   const std::map<std::string, UlogNumber, std::less<>>& vehicle_defaults() const { return vehicle_defaults_; }
   /// @return nothing when the log does not tell it
   std::optional<double> parameter(std::string_view name) const;

@@ -101,7 +101,8 @@ class UlogLayouts {
   bool has(std::string_view name) const { return formats_.contains(name); }
 
   /// The layout of a format. @return null: there is none, it has no fields, names a type that is none,
-  /// goes round in a circle, or is longer than a message can be. Asked again after more formats came, it is looked for anew
+  /// goes round in a circle, or is longer than a message can be. Asked again after more formats came, it is
+  /// looked for anew
   const UlogLayout* find(std::string_view name);
 
  private:

@@ -145,9 +145,10 @@ void UlogReader::read_flags() {
   for (std::size_t k = 0; k < incompatible.size(); ++k) {
     const std::uint8_t known = k == 0 ? kAppendedData : 0;
     if ((incompatible[k] & ~known) != 0) {
-      throw UserError(name_ +
-                      ": is a ULog of a kind that came later: its flags say that readers which do not know it "
-                      "must not read it");
+      throw UserError(
+          name_ +
+          ": is a ULog of a kind that came later: its flags say that readers which do not know it "
+          "must not read it");
     }
   }
   if ((incompatible[0] & kAppendedData) == 0) return;
@@ -177,8 +178,7 @@ void UlogReader::read_section(std::size_t begin, std::size_t end, bool is_cut) {
       continue;
     }
     // What is unknown or odd is passed over where that leads to something sound.
-    if (message && !message->content.empty() &&
-        (message->end() == end || reads_on(message->end(), end))) {
+    if (message && !message->content.empty() && (message->end() == end || reads_on(message->end(), end))) {
       count_odd(*message, known);
       place = message->end();
       continue;
@@ -398,8 +398,8 @@ void UlogReader::sort_records() {
       series.records_.clear();
       continue;
     }
-    file_.damage_.misfit_records += std::erase_if(
-        series.records_, [&](Bytes record) { return !series.layout_->takes(record.size()); });
+    file_.damage_.misfit_records +=
+        std::erase_if(series.records_, [&](Bytes record) { return !series.layout_->takes(record.size()); });
   }
 }
 

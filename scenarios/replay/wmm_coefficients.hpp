@@ -2,8 +2,8 @@
 
 #include <array>
 
-// Coefficients of the World Magnetic Model of NOAA and BGS, in the public domain: Schmidt semi-normalised, of degree 1 to
-// 12, each degree from order 0 on. 2015 is the second edition, of 2018.
+// Coefficients of the World Magnetic Model of NOAA and BGS, in the public domain: Schmidt semi-normalised, of
+// degree 1 to 12, each degree from order 0 on. 2015 is the second edition, of 2018.
 
 namespace ironbird::scenarios {
 

@@ -8,6 +8,7 @@
 #include "scenarios/report/flight_data.hpp"
 #include "scenarios/report/page_style.hpp"
 #include "scenarios/report/plot/svg.hpp"
+#include "scenarios/report/replay_figures.hpp"
 #include "scenarios/report/timing_html.hpp"
 #include "scenarios/report/verdict_html.hpp"
 #include "scenarios/requirements/number_text.hpp"
@@ -70,6 +71,27 @@ std::string figures(const std::vector<ReportRun>& runs) {
   return out;
 }
 
+/// The figures of a recorded flight that was fed to other estimators.
+std::string replay_figures(const std::vector<ReportRun>& runs) {
+  const plot::TimeFrame frame = time_frame(runs);
+  plot::Plane path = replayed_path(runs);
+  const plot::TimeStack position = replayed_position(runs);
+  path.width = 480.0;
+  path.height = plot::height(position, frame);
+  std::string out =
+      "<section id=\"figures\"><h2>Flight</h2><p class=\"hint\">Move over a figure to read all of them at "
+      "one time; drag to zoom in time, double click to see everything. Heights are counted from what each "
+      "barometer said at its own start: a constant between them says nothing.</p>";
+  out += "<div class=\"pair\">" + figure(path.title, plot::legend(path), plot::draw(path)) +
+         figure(position, frame) + "</div></section>";
+  for (const plot::TimeStack& stack :
+       {replayed_velocity(runs), replayed_attitude(runs), replayed_differences(runs),
+        replayed_innovations(runs), replayed_biases(runs)}) {
+    out += "<section>" + figure(stack, frame) + "</section>";
+  }
+  return out;
+}
+
 std::string page_title(const std::vector<ReportRun>& runs) {
   if (runs.size() != 1) return std::to_string(runs.size()) + " runs";
   const ReportRun& run = runs.front();
@@ -86,7 +108,7 @@ std::string report_html(const std::vector<ReportRun>& runs) {
       plot::escaped(page_title(runs)) + "</title><style>" + kPageStyle + "</style></head>\n<body><main>\n";
   for (const ReportRun& run : runs) out += verdict_section(run) + "\n";
   for (const ReportRun& run : runs) out += checks_table(run, runs.size() > 1) + "\n";
-  if (!runs.empty()) out += figures(runs) + "\n";
+  if (!runs.empty()) out += (is_replay(runs.front()) ? replay_figures(runs) : figures(runs)) + "\n";
   out += metrics_table(runs) + "\n";
   for (const ReportRun& run : runs) out += timing_section(run);
   for (const ReportRun& run : runs) out += events_table(run, runs.size() > 1) + "\n";

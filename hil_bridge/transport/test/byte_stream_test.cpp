@@ -256,10 +256,15 @@ TEST(SerialPortTest, GoesDownWhenThePlugIsPulledAndComesBackWithTheNextDevice) {
 
 TEST(SerialPortTest, ThrowsAwayWhatWasSentBeforeItOpened) {
   PseudoTerminal terminal;
+  // GIVEN a sender with a queue of its own behind a line that is full
   while (terminal.write(Bytes(1000, 1)) > 0) {
   }
+  std::jthread sender([&terminal, queue = 20'000](const std::stop_token& stop) mutable {
+    while (!stop.stop_requested() && queue > 0) queue -= static_cast<int>(terminal.write(Bytes(100, 1)));
+  });
   SerialPort port({terminal.device(), 921600});
   port.open();
+  sender.join();
   terminal.write(Bytes{7});
   EXPECT_EQ(received(port, 1), Bytes{7});
 }

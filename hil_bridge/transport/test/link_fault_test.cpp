@@ -265,6 +265,37 @@ TEST(LinkFaultTest, TakesNoMoreThanTheLineBehindItWhileNobodyReads) {
   EXPECT_EQ(fault.write(Bytes(100, 7)), 100U) << "somebody has read";
 }
 
+TEST(LinkFaultTest, HoldsNoMoreForASlowLineThanADriverDoes) {
+  FaultyLine line({.byte_rate = 1000.0});
+  std::size_t taken = 0;
+  for (int k = 0; k < 1000; ++k) taken += line.fault().write(Bytes(100, 1));
+  EXPECT_GE(taken, 4000U);
+  EXPECT_LE(taken, 4200U);
+  line.fault().advance(milliseconds(1000));
+  EXPECT_EQ(line.fault().write(Bytes(100, 1)), 100U);
+}
+
+TEST(LinkFaultTest, ForgetsWhatWasUnderWayWhenTheLineBehindItWasCut) {
+  StreamPair pair;
+  LinkFault fault(pair.near(), {{.latency = milliseconds(50)}, {}}, 1, three);
+  fault.advance(milliseconds(0));
+  fault.write(Bytes{1, 1, 1, 2});
+  pair.far().write(Bytes{5});
+  fault.advance(milliseconds(10));
+  pair.hang_up();
+  ASSERT_FALSE(fault.is_up());
+  ASSERT_TRUE(pair.far().reopen());
+  ASSERT_TRUE(fault.reopen());
+  fault.write(Bytes{3, 3, 3});
+  pair.far().write(Bytes{6, 6, 6});
+  fault.advance(milliseconds(100));
+  Bytes there(10), here(10);
+  there.resize(pair.far().read(there));
+  here.resize(fault.read(here));
+  EXPECT_EQ(there, (Bytes{3, 3, 3}));
+  EXPECT_EQ(here, (Bytes{6, 6, 6}));
+}
+
 TEST(LinkFaultTest, HasTheSameFaultsForTheSameSeedAndOthersForAnother) {
   const DirectionFaults faults{.drop = 0.1, .corrupt = 0.01, .insert = 0.1, .duplicate = 0.1};
   std::map<std::uint64_t, Bytes> runs[2];

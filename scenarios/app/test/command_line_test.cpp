@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(
     Words, WrongWordTest,
     ::testing::Values(
         WordCase{"Verb", "rnu x.toml", "rnu: there is no such verb; did you mean run?"},
-        WordCase{"VerbUnlikeAny", "wxyzwxyz", "run, check, report, video, snapshot, fcu, topics"},
+        WordCase{"VerbUnlikeAny", "wxyzwxyz", "run, check, replay, report, video, snapshot, fcu, topics"},
         WordCase{"Option", "run x.toml --jbos 2", "--jbos: run does not take this; did you mean --jobs?"},
         WordCase{"OptionUnlikeAny", "check x.toml --zzzzzzzzzz",
                  "--zzzzzzzzzz: check does not take this; see ironbird check --help"},

@@ -130,7 +130,7 @@ TEST_P(KillTest, MakesTheRunInvalidWithTheReason) {
 
 const KillCase kKillCases[] = {
     {"HangUp", [](LiveRig& rig) { rig.line.hang_up(); }, Time{},
-     "the unit began anew: it booted, or its line was cut"},
+     "the unit began anew: it booted, its line was cut, or another one speaks"},
     {"ImuSilence", [](LiveRig& rig) { rig.there().unit().mute<test::rosflight::SmallImu>(); },
      milliseconds(50), "no IMU data for 50 ms"},
     {"RadioSilence", [](LiveRig& rig) { rig.there().fcu().pilot().fall_silent(); }, milliseconds(100),
@@ -149,7 +149,7 @@ const KillCase kKillCases[] = {
      },
      milliseconds(10), "a parameter of the unit has changed"},
     {"Boot", [](LiveRig& rig) { rig.there().boot(); }, Time{},
-     "the unit began anew: it booted, or its line was cut"},
+     "the unit began anew: it booted, its line was cut, or another one speaks"},
     {"MissedPeriods", [](LiveRig& rig) { rig.there().stalled = milliseconds(54); }, milliseconds(54),
      "the control loop misses its period"},
 };
@@ -190,6 +190,12 @@ TEST(LiveBenchTest, OutlivesASlipOfTheMachineThatIsShort) {
   rig.until(1.0, [] { return false; });
   EXPECT_EQ(rig.state(), kLive);
   EXPECT_EQ(rig.bench().timing().most_missed, 5U);
+  const Verdict verdict = rig.bench().finish(0.0);
+  ASSERT_TRUE(verdict.timing);
+  EXPECT_EQ(verdict.timing->passes, rig.bench().timing().passes);
+  EXPECT_EQ(verdict.timing->missed, rig.bench().timing().missed);
+  EXPECT_EQ(verdict.timing->most_missed, 5U);
+  EXPECT_EQ(verdict.timing->page_faults, rig.bench().timing().page_faults);
 }
 
 TEST(LiveBenchTest, ClosesTheGateWhenItIsStopped) {

@@ -55,6 +55,28 @@ TEST_F(FcuProgramTest, SaysWhetherAnythingSpeaksWhereThereIsNoUnit) {
               HasSubstr("bytes come, but no frame of ROSflight 2.0; is the baud rate right"));
 }
 
+TEST_F(FcuProgramTest, ServesOnPortsThatAreNotTheUsualOnes) {
+  const int port = 23000 + 2 * (getpid() % 5000);
+  const std::string own = std::to_string(port), there = std::to_string(port + 1);
+  const std::string serve = "fcu serve " + kMission + " --idle-pilot --duration 8 --udp " + own;
+  Running server(serve + " --udp-to localhost:" + there);
+  EXPECT_TRUE(server.says("connect with: ironbird fcu info --udp localhost:" + own + ":" + there));
+  EXPECT_THAT(run("fcu info --patience 15 --udp localhost:" + own + ":" + there).text,
+              HasSubstr("333 of 333"));
+  EXPECT_EQ(run(serve + " --udp-to localhost:1:2").code, 2);
+  EXPECT_EQ(run("fcu serve " + kMission + " --pty " + link_ + " --udp-to localhost").code, 2);
+  server.end();
+}
+
+TEST_F(FcuProgramTest, SaysThatAUnitHasFallenSilent) {
+  const Server server(link_, "pilot.arm_at=\"1000 s\"", "link.incoming.drop=1");
+  Running asks("fcu info --patience 6 --port " + link_);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  kill(server.process(), SIGSTOP);
+  EXPECT_THAT(asks.end().text, HasSubstr("it was heard, and is silent now"));
+  kill(server.process(), SIGCONT);
+}
+
 TEST_F(FcuProgramTest, SavesComparesSetsAndLoadsParameters) {
   const Server server(link_);
   const std::string file = (folder_ / "before.yaml").string();

@@ -28,17 +28,16 @@ struct KnownFlight {
   const char* mag;
 };
 
-inline const std::vector<KnownFlight> kKnownFlights = {
-    {"h520_hexa_mission_fullrate", "2.7:59.3", "3.6", "0"},
-    {"x500_quad_mission_rtl", "4.8:76.1", "-10.8", "1"},
-    {"v6c_quad_mission_two_mags", "5.8:58.6", "4.0", "1"},
-    {"x8_octo_altctl", "5.2:75.7", "-3.3", "0"},
-    {"cube_quad_hover", "4.3:28.8", "11.3", "0"}};
+inline const std::vector<KnownFlight> kKnownFlights = {{"h520_hexa_mission_fullrate", "2.7:59.3", "3.6", "0"},
+                                                       {"x500_quad_mission_rtl", "4.8:76.1", "-10.8", "1"},
+                                                       {"v6c_quad_mission_two_mags", "5.8:58.6", "4.0", "1"},
+                                                       {"x8_octo_altctl", "5.2:75.7", "-3.3", "0"},
+                                                       {"cube_quad_hover", "4.3:28.8", "11.3", "0"}};
 
 }  // namespace ironbird::scenarios::test
 
 /// Ends a test that needs the recorded flights where they are not.
-#define IRONBIRD_NEEDS_FLIGHTS()                                                                        \
-  if (ironbird::scenarios::test::flights_folder().empty()) {                                            \
+#define IRONBIRD_NEEDS_FLIGHTS()                                                                         \
+  if (ironbird::scenarios::test::flights_folder().empty()) {                                             \
     GTEST_SKIP() << "no recorded flights: they lie beside the checkout, or where IRONBIRD_FLIGHTS says"; \
   }

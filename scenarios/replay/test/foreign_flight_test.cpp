@@ -27,7 +27,8 @@ std::string output_of(const std::string& command) {
   if (pipe == nullptr) throw std::runtime_error("cannot start: " + command);
   std::string output;
   std::array<char, 65536> part;
-  while (const std::size_t count = fread(part.data(), 1, part.size(), pipe)) output.append(part.data(), count);
+  while (const std::size_t count = fread(part.data(), 1, part.size(), pipe))
+    output.append(part.data(), count);
   if (pclose(pipe) != 0) throw std::runtime_error("failed: " + command);
   return output;
 }
@@ -63,7 +64,8 @@ class Writer {
       append(static_cast<std::uint64_t>(series_.integer(record_, place)));
     } else {
       const double number = series_.number(record_, place);
-      append(std::bit_cast<std::uint64_t>(std::isnan(number) ? std::numeric_limits<double>::quiet_NaN() : number));
+      append(std::bit_cast<std::uint64_t>(std::isnan(number) ? std::numeric_limits<double>::quiet_NaN()
+                                                             : number));
     }
   }
   void append(std::uint64_t bits) {
@@ -102,7 +104,8 @@ TEST_P(ForeignFlightTest, IsReadAsSomebodyElseReadsIt) {
     EXPECT_EQ(*ours.parameter(name), value.get<double>()) << name;
   }
   EXPECT_EQ(ours.parameters().size(), theirs["parameters"].size());
-  for (const auto& [name, value] : theirs["information"].items()) EXPECT_EQ(ours.information().at(name), value.get<std::string>());
+  for (const auto& [name, value] : theirs["information"].items())
+    EXPECT_EQ(ours.information().at(name), value.get<std::string>());
   EXPECT_EQ(ours.texts().size(), theirs["texts"]);
   EXPECT_EQ(ours.damage().dropouts, theirs["dropouts"]);
   EXPECT_TRUE(ours.complaints().empty());

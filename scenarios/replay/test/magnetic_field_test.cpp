@@ -16,7 +16,8 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-const std::filesystem::path kForeign = std::filesystem::path(IRONBIRD_SOURCE_DIR) / "scenarios/replay/test/foreign";
+const std::filesystem::path kForeign =
+    std::filesystem::path(IRONBIRD_SOURCE_DIR) / "scenarios/replay/test/foreign";
 
 struct Place {
   double year;
@@ -34,14 +35,18 @@ TEST(MagneticFieldTest, AgreesWithSomebodyElses) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::vector<Place> places;
   for (int k = 0; k < 300; ++k)
-    places.push_back({2015.1 + 14.8 * unit(random), 5000.0 * unit(random), -88.0 + 176.0 * unit(random), -180.0 + 360.0 * unit(random)});
+    places.push_back({2015.1 + 14.8 * unit(random), 5000.0 * unit(random), -88.0 + 176.0 * unit(random),
+                      -180.0 + 360.0 * unit(random)});
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "ironbird_places.txt";
   {
     std::ofstream out(file);
     out.precision(17);
-    for (const Place& place : places) out << place.year << ' ' << place.altitude / 1000.0 << ' ' << place.latitude << ' ' << place.longitude << '\n';
+    for (const Place& place : places)
+      out << place.year << ' ' << place.altitude / 1000.0 << ' ' << place.latitude << ' ' << place.longitude
+          << '\n';
   }
-  FILE* const other = popen(("node '" + (kForeign / "earth_field.mjs").string() + "' < '" + file.string() + "'").c_str(), "r");
+  FILE* const other = popen(
+      ("node '" + (kForeign / "earth_field.mjs").string() + "' < '" + file.string() + "'").c_str(), "r");
   ASSERT_NE(other, nullptr);
   std::size_t same = 0;
   for (const Place& place : places) {
@@ -51,7 +56,8 @@ TEST(MagneticFieldTest, AgreesWithSomebodyElses) {
     // The other one has an edition of 2015 beside ours, and changes over some weeks before a new one begins.
     if (std::abs(place.year - std::round(place.year)) < 0.2 || place.year < 2018.8) continue;
     ++same;
-    EXPECT_NEAR(std::remainder(ours.declination * kDegrees - declination, 360.0), 0.0, 1e-3) << place.year << ' ' << place.latitude << ' ' << place.longitude;
+    EXPECT_NEAR(std::remainder(ours.declination * kDegrees - declination, 360.0), 0.0, 1e-3)
+        << place.year << ' ' << place.latitude << ' ' << place.longitude;
     EXPECT_NEAR(ours.inclination * kDegrees, inclination, 1e-3);
     EXPECT_NEAR(ours.strength * 1e9, nanotesla, 1.0);
   }
@@ -59,7 +65,8 @@ TEST(MagneticFieldTest, AgreesWithSomebodyElses) {
   EXPECT_GT(same, 100U);
 }
 
-// The values that NOAA publishes with the model, WMM2025 test values, at its epoch: height 0, 80 N 0 E; 0 N 120 E; 80 S 240 E.
+// The values that NOAA publishes with the model, WMM2025 test values, at its epoch: height 0, 80 N 0 E; 0 N
+// 120 E; 80 S 240 E.
 TEST(MagneticFieldTest, GivesThePublishedValues) {
   const MagneticField north = field_at({2025.0, 0.0, 80.0, 0.0});
   EXPECT_NEAR(north.b_N.x() * 1e9, 6521.6, 0.1);

@@ -42,8 +42,7 @@ class UlogByHand {
     return message('D', content);
   }
   template <class Value>
-    requires std::is_arithmetic_v<Value>
-  UlogByHand& keyed(char type, std::string_view key, Value value) {
+  requires std::is_arithmetic_v<Value> UlogByHand& keyed(char type, std::string_view key, Value value) {
     std::vector<std::uint8_t> content{static_cast<std::uint8_t>(key.size())};
     append(content, key);
     put(content, value);

@@ -60,11 +60,13 @@ TEST(UlogFileTest, ReadsRecordsByTheNamesOfTheirFields) {
 
 TEST(UlogFileTest, ReadsEveryTypeToItsLastBit) {
   UlogByHand log;
-  log.format("all:uint64_t timestamp;int8_t a;uint8_t b;int16_t c;uint16_t d;int32_t e;uint32_t f;int64_t g;uint64_t h;float i;double j;char k;");
+  log.format(
+      "all:uint64_t timestamp;int8_t a;uint8_t b;int16_t c;uint16_t d;int32_t e;uint32_t f;int64_t "
+      "g;uint64_t h;float i;double j;char k;");
   log.subscribe(0, 1, "all");
-  log.record(1, std::uint64_t{5}, std::int8_t{-128}, std::uint8_t{255}, std::int16_t{-32768}, std::uint16_t{65535},
-             std::int32_t{-2147483647}, std::uint32_t{4294967295U}, std::int64_t{-9007199254740993}, ~std::uint64_t{0},
-             0.1F, 0.1, 'x');
+  log.record(1, std::uint64_t{5}, std::int8_t{-128}, std::uint8_t{255}, std::int16_t{-32768},
+             std::uint16_t{65535}, std::int32_t{-2147483647}, std::uint32_t{4294967295U},
+             std::int64_t{-9007199254740993}, ~std::uint64_t{0}, 0.1F, 0.1, 'x');
   const UlogFile file = log.read();
   const UlogSeries& all = *file.find("all");
   const auto at = [&](const char* name) { return *all.find(name); };
@@ -84,7 +86,8 @@ TEST(UlogFileTest, ReadsEveryTypeToItsLastBit) {
 TEST(UlogFileTest, NeverCastsARealNumberThatIsNoWholeOne) {
   UlogByHand log;
   log.format("r:uint64_t timestamp;double v;").subscribe(0, 1, "r");
-  for (const double value : {std::numeric_limits<double>::quiet_NaN(), 1e300, -1e300, 2.9}) log.record(1, std::uint64_t{1}, value);
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), 1e300, -1e300, 2.9})
+    log.record(1, std::uint64_t{1}, value);
   const UlogFile file = log.read();
   const UlogSeries& r = *file.find("r");
   const UlogPlace v = *r.find("v");
@@ -97,7 +100,9 @@ TEST(UlogFileTest, NeverCastsARealNumberThatIsNoWholeOne) {
 TEST(UlogFileTest, KeepsPublishersOfOneTopicApart) {
   UlogByHand log;
   log.format("m:uint64_t timestamp;float v;").subscribe(0, 1, "m").subscribe(1, 2, "m");
-  log.record(1, std::uint64_t{1}, 10.0F).record(2, std::uint64_t{1}, 20.0F).record(1, std::uint64_t{2}, 11.0F);
+  log.record(1, std::uint64_t{1}, 10.0F)
+      .record(2, std::uint64_t{1}, 20.0F)
+      .record(1, std::uint64_t{2}, 11.0F);
   const UlogFile file = log.read();
   EXPECT_EQ(file.find("m", 0)->size(), 2U);
   ASSERT_EQ(file.find("m", 1)->size(), 1U);
@@ -124,11 +129,18 @@ TEST(UlogFileTest, FollowsNestedTypesThatAreDefinedLater) {
 TEST(UlogFileTest, HasNoRecordsOfFormatsThatGoRoundInACircleOrAreTooLong) {
   UlogByHand log;
   log.format("a:uint64_t timestamp;b x;").format("b:a y;");
-  log.format("long:uint64_t timestamp;uint8_t[65536] x;").format("none:uint64_t timestamp;strange x;").format("empty:");
-  log.subscribe(0, 1, "a").subscribe(0, 2, "long").subscribe(0, 3, "none").subscribe(0, 4, "empty").subscribe(0, 5, "unheard");
+  log.format("long:uint64_t timestamp;uint8_t[65536] x;")
+      .format("none:uint64_t timestamp;strange x;")
+      .format("empty:");
+  log.subscribe(0, 1, "a")
+      .subscribe(0, 2, "long")
+      .subscribe(0, 3, "none")
+      .subscribe(0, 4, "empty")
+      .subscribe(0, 5, "unheard");
   for (std::uint16_t id = 1; id <= 5; ++id) log.record(id, std::uint64_t{1});
   const UlogFile file = log.read();
-  for (const char* topic : {"a", "long", "none", "empty", "unheard"}) EXPECT_EQ(file.find(topic)->size(), 0U) << topic;
+  for (const char* topic : {"a", "long", "none", "empty", "unheard"})
+    EXPECT_EQ(file.find(topic)->size(), 0U) << topic;
   EXPECT_EQ(file.damage().homeless_records, 5U);
 }
 

@@ -220,6 +220,21 @@ TEST(VerdictJsonTest, ReadsAFileFromBeforeThereWereWarnings) {
   EXPECT_TRUE(verdict_from_json(text).warnings.empty());
 }
 
+TEST(VerdictJsonTest, KeepsHowTheBenchKeptItsTime) {
+  Verdict verdict = example();
+  verdict.timing = BenchTiming{
+      {{"step", "the autopilot's step", 4, 1e-5, 2e-5, 3e-5, {1e-5, 3e-5}, {1, 3}}}, 400, 7, 3, 11};
+  const Verdict read = verdict_from_json(to_json(verdict));
+  ASSERT_TRUE(read.timing);
+  EXPECT_EQ(read.timing->passes, 400U);
+  EXPECT_EQ(read.timing->missed, 7U);
+  EXPECT_EQ(read.timing->most_missed, 3U);
+  EXPECT_EQ(read.timing->page_faults, 11U);
+  ASSERT_EQ(read.timing->stages.size(), 1U);
+  EXPECT_EQ(read.timing->stages[0].p99, 2e-5);
+  EXPECT_EQ(read.timing->stages[0].counts, (std::vector<std::uint64_t>{1, 3}));
+}
+
 TEST(NumberTextTest, ShowsFourDigitsAndDegrees) {
   EXPECT_EQ(with_unit(0.0431234, "m"), "0.04312 m");
   EXPECT_EQ(with_unit(3.14159265358979 / 4.0, "rad"), "45 deg");

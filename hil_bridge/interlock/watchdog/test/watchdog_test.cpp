@@ -257,8 +257,8 @@ class DatagramTest : public testing::Test {
     ASSERT_NEAR(unit_->motor(), kBenchsMotors, kClose);
   }
 
-  // Ports that no other test process has, below those that the machine hands out.
-  const int own_port_ = 14000 + 2 * (getpid() % 3000);
+  // Ports that hardly another process has, below those that the machine hands out, and not the usual ones.
+  const int own_port_ = 22000 + 2 * (getpid() % 5000);
   const int units_port_ = own_port_ + 1;
   std::optional<UdpSocket> units_line_{std::in_place,
                                        transport::UdpConfig{units_port_, "localhost", own_port_}};
