@@ -59,6 +59,7 @@ void AidedEstimator::reset() {
   alignment_.reset();
   running_ = false;
   realigning_ = false;
+  on_ground_ = false;
   attitude_lost_ = false;
   seen_resets_ = 0;
   last_reset_ = Time{0};
@@ -68,6 +69,8 @@ void AidedEstimator::reset() {
   accelerometer_offset_B_.setZero();
   w_filtered_B_.setZero();
   rates_known_ = false;
+  f_slow_B_.setZero();
+  vibration_square_ = 0.0;
   delay_line_.clear();
   gates_ = Gates{};
   heard_ = Heard{};
@@ -91,6 +94,7 @@ void AidedEstimator::begin(const StartState& found, Time now) {
   heard_ = {now, now, now};
   trust_.begin(now);
   restart(found);
+  on_ground_ = !found.moving;
   running_ = true;
 }
 
@@ -140,6 +144,7 @@ StateEstimate AidedEstimator::estimate(const SensorFrame& frame, double dt) {
   } else {
     advance(frame.imu, step);
     settle_on_ground();
+    leave_ground();
     fuse(frame);
     if (!is_finite()) recover(now);
     if (imu_was_away()) seek_attitude();
@@ -168,8 +173,17 @@ void AidedEstimator::filter_rates(const Vector3& w_B, double dt) {
   w_filtered_B_ = kept * w_filtered_B_ + (1.0 - kept) * w_B;
 }
 
+void AidedEstimator::feel_vibration(const Vector3& f_B, double dt) {
+  constexpr double kSlow = 0.1;    // s, what changes slower is the vehicle's motion
+  constexpr double kMemory = 1.0;  // s
+  if (f_slow_B_.isZero(0.0)) f_slow_B_ = f_B;
+  f_slow_B_ += std::min(dt / kSlow, 1.0) * (f_B - f_slow_B_);
+  vibration_square_ += std::min(dt / kMemory, 1.0) * ((f_B - f_slow_B_).squaredNorm() - vibration_square_);
+}
+
 void AidedEstimator::advance(const ImuSample& imu, double dt) {
   if (dt <= 0.0) return;
+  feel_vibration(imu.f_B, dt);
   const double crossed = std::min(dt, seconds(FrameClock::kLongestGap));
   const int steps = static_cast<int>(std::ceil(crossed / kLongestStep));
   const Vector3 f_B = imu.f_B - accelerometer_offset_B_;
@@ -286,6 +300,15 @@ void AidedEstimator::settle_on_ground() {
   doubts_ = 0;
 }
 
+void AidedEstimator::leave_ground() {
+  const MagParams& wanted = aiding().mag;
+  if (!on_ground_ || -kinematics().p_N.z() < wanted.ground_height) return;
+  on_ground_ = false;
+  if (wanted.ground_sigma <= 0.0) return;
+  heading_trust_.doubt();
+  doubt_heading(wanted.ground_sigma);
+}
+
 void AidedEstimator::recover(Time now) {
   ++recoveries_;
   StartState again = going_on_from(last_good_, origin_);
@@ -387,6 +410,7 @@ void AidedEstimator::probe(ProbeVisitor& visit) const {
   visit("resets",
         gates_.position.resets() + gates_.velocity.resets() + gates_.baro.resets() + gates_.mag.resets(),
         "1");
+  visit("vibration", vibration(), "m/s^2");
   visit("position_offset", offset_N_, "m");
   visit("late_fixes", late_fixes_, "1");
   visit("recoveries", recoveries_, "1");

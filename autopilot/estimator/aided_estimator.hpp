@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "autopilot/estimator/aiding_params.hpp"
@@ -92,6 +93,8 @@ class AidedEstimator : public Estimator {
   /// @param difference  pressure at the origin less the measured one, Pa
   virtual void correct_baro(double difference, Time now) = 0;
   virtual void correct_gnss(const GnssObservation& fix, Time now) = 0;
+  /// The heading may be wrong by this much more, 1 sigma, rad; the velocity over ground is not.
+  virtual void doubt_heading(double sigma) = 0;
   virtual Kinematics kinematics() const = 0;
   /// What the filter knows of the receiver's slow error, m.
   virtual Vector3 slow_fix_error_N() const { return Vector3::Zero(); }
@@ -117,6 +120,9 @@ class AidedEstimator : public Estimator {
   /// taken back by this much from now on, with doubt; before the first flight with the origin.
   /// @return false: the filter is to believe them
   bool blame_receiver(const Vector3& by_N, Time now);
+
+  /// How much the airframe shakes, root mean square of the specific force's fast part over a second, m/s^2.
+  double vibration() const { return std::sqrt(vibration_square_); }
 
   const BaroModel& baro_model() const { return baro_; }
   Gate& position_gate() { return gates_.position; }
@@ -148,6 +154,7 @@ class AidedEstimator : public Estimator {
   void begin(const StartState& start, Time now);
   void rebuild_baro_model();
   void advance(const ImuSample& imu, double dt);
+  void feel_vibration(const Vector3& f_B, double dt);
   void fuse(const SensorFrame& frame);
   void fuse_baro(const BaroSample& baro, Time now);
   void fuse_gnss(const GnssSample& gnss, Time now);
@@ -161,6 +168,8 @@ class AidedEstimator : public Estimator {
   /// times the number of doubts so far, the offset is dropped.
   bool has_stepped_back(const Vector3& as_told_N, const Vector3& variance, Time now);
   void settle_on_ground();
+  /// A heading that was found on the ground has its iron in it.
+  void leave_ground();
   void look_after(StateEstimate& estimate, Time now, double dt);
   bool is_lost(const StateEstimate& estimate, Time now) const;
   void seek_attitude();
@@ -168,6 +177,7 @@ class AidedEstimator : public Estimator {
   Alignment alignment_;
   bool running_ = false;
   bool realigning_ = false;
+  bool on_ground_ = false;      // it has started at rest, and was not higher than `mag.ground_height` since
   bool attitude_lost_ = false;  // until the realignment is through
   int seen_resets_ = 0;
   Time last_reset_{0};
@@ -177,6 +187,8 @@ class AidedEstimator : public Estimator {
   Vector3 accelerometer_offset_B_ = Vector3::Zero();
   Vector3 w_filtered_B_ = Vector3::Zero();
   bool rates_known_ = false;
+  Vector3 f_slow_B_ = Vector3::Zero();
+  double vibration_square_ = 0.0;  // (m/s^2)^2
   DelayLine delay_line_;
   Gates gates_;
   Heard heard_;

@@ -84,6 +84,8 @@ struct MagParams {
   double gate_sigma = 0.05;
   double persistence = 5.0;
   double silence = 0.5;
+  double ground_sigma = 0.0;
+  double ground_height = 1.5;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -99,6 +101,12 @@ struct MagParams {
     visit("persistence", self.persistence, "s",
           "after so long a disagreement a heading that is in doubt is reset", 0.0, 600.0);
     visit("silence", self.silence, "s", "without a sample for this long: degraded", 0.0, 600.0);
+    visit("ground_sigma", self.ground_sigma, "rad",
+          "error of a heading that was found on the ground, 1 sigma, for the iron in it: after take-off the "
+          "heading is sought anew; 0: the ground has none",
+          0.0, 3.0);
+    visit("ground_height", self.ground_height, "m",
+          "above the start, beyond which the ground's iron is not felt", 0.0, 100.0);
   }
 };
 

@@ -66,7 +66,9 @@ EkfStepNoise Ekf::step_noise(const Vector3& w_B, double h) const {
       q.roll_pitch, q.heading, q.gyro_bias, q.gyro_bias, q.gyro_bias;
   noise.direct *= scale;
   noise.accelerometer = square(q.accelerometer) * scale;
-  noise.gyro = (square(q.gyro) + square(q.gyro_per_rate) * (w_B - x_.gyro_bias_B).squaredNorm()) * scale;
+  noise.gyro = (square(q.gyro) + square(q.gyro_per_rate) * (w_B - x_.gyro_bias_B).squaredNorm() +
+                square(q.gyro_per_vibration * vibration())) *
+               scale;
   return noise;
 }
 
@@ -128,6 +130,16 @@ void Ekf::set_heading(double heading, double variance) {
   set_attitude({x_.theta.x(), x_.theta.y(), heading});
   const Matrix3 R_BN = rotation_NB(trig_).transpose();
   x_.v_NB_B = R_BN * v_N;
+  const EkfState::Matrix from_v_N = ekf_from_v_N(x_, trig_);
+  P_ = from_v_N * P_ * from_v_N.transpose();
+  mirror_upper(P_);
+}
+
+void Ekf::doubt_heading(double sigma) {
+  // As in set_heading: v_N is known and does not turn with the heading.
+  const EkfState::Matrix to_v_N = ekf_to_v_N(x_, trig_);
+  P_ = to_v_N * P_ * to_v_N.transpose();
+  P_(kHeading, kHeading) += square(sigma);
   const EkfState::Matrix from_v_N = ekf_from_v_N(x_, trig_);
   P_ = from_v_N * P_ * from_v_N.transpose();
   mirror_upper(P_);

@@ -24,6 +24,7 @@ struct EkfNoiseParams {
   double accelerometer = 0.02;
   double gyro = 3.0e-4;
   double gyro_per_rate = 0.0;
+  double gyro_per_vibration = 0.0;
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -42,6 +43,9 @@ struct EkfNoiseParams {
     visit("gyro_per_rate", self.gyro_per_rate, "sqrt(s)",
           "noise density that the gyro has beyond that per rate of turn, for axes askew and wrong in scale",
           0.0, 10.0);
+    visit("gyro_per_vibration", self.gyro_per_vibration, "s/m*sqrt(s)",
+          "noise density that the gyro has beyond that per vibration felt, for what shaking does to it", 0.0,
+          1.0);
   }
 };
 
@@ -81,6 +85,7 @@ class Ekf : public Tunable<AidedEstimator, EkfParams> {
   void correct_mag(const Vector3& m_B, Time now) override;
   void correct_baro(double difference, Time now) override;
   void correct_gnss(const GnssObservation& fix, Time now) override;
+  void doubt_heading(double sigma) override;
   Kinematics kinematics() const override;
   bool is_finite() const override;
   void publish(StateEstimate& estimate) const override;

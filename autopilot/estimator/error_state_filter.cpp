@@ -93,7 +93,6 @@ void ErrorStateFilter::rebuild_step_constants(double h) {
   const double gnss = 1.0 - square(decay_.gnss);
   noise_.setZero();
   noise_.segment<3>(kV).setConstant(square(q.accelerometer) * h);
-  noise_.segment<3>(kT).setConstant(square(q.gyro) * h);
   noise_.segment<3>(kG).setConstant(square(q.gyro_bias) * h);
   noise_.segment<3>(kA).setConstant(square(q.accelerometer_bias) * h);
   noise_.segment<3>(kW) << square(q.gnss_horizontal) * gnss, square(q.gnss_horizontal) * gnss,
@@ -104,6 +103,8 @@ void ErrorStateFilter::rebuild_step_constants(double h) {
 
 void ErrorStateFilter::predict(const Vector3& f_B, const Vector3& w_B, double dt) {
   if (dt != step_) rebuild_step_constants(dt);
+  const ErrorStateNoiseParams& q = params().noise;
+  noise_.segment<3>(kT).setConstant((square(q.gyro) + square(q.gyro_per_vibration * vibration())) * dt);
   const EkfInput u{f_B, w_B, aiding().gravity};
   Matrix3 R_mid;
   const ErrorState next = error_state_propagate(x_, u, decay_, dt, R_mid);
@@ -150,6 +151,14 @@ void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
   Update update;
   update.fuse(P_, innovation, PCt, CPCt, 0.0, R);
   inject(update.correction);
+}
+
+void ErrorStateFilter::doubt_heading(double sigma) {
+  const Vector3 down_B = x_.q_NB.conjugate() * Vector3::UnitZ();
+  P_.block<3, 3>(kT, kT) += square(sigma) * down_B * down_B.transpose();
+  // What was taken for the vehicle's own iron was found with that heading.
+  x_.mag_bias_B.setZero();
+  decorrelate(P_, kM, 3, square(params().noise.mag));
 }
 
 void ErrorStateFilter::correct_baro(double difference, Time now) {

@@ -11,6 +11,7 @@ namespace ironbird::autopilot {
 struct ErrorStateNoiseParams {
   double accelerometer = 0.015;
   double gyro = 2.0e-4;
+  double gyro_per_vibration = 0.0;
   double gyro_bias = 1.0e-5;
   double accelerometer_bias = 3.0e-4;
   double gyro_misalignment = 0.01;
@@ -30,6 +31,9 @@ struct ErrorStateNoiseParams {
     visit("accelerometer", self.accelerometer, "m/s^2/sqrt(Hz)", "noise density of the accelerometer", 0.0,
           1e3);
     visit("gyro", self.gyro, "rad/s/sqrt(Hz)", "noise density of the gyro", 0.0, 1e3);
+    visit("gyro_per_vibration", self.gyro_per_vibration, "s/m*sqrt(s)",
+          "noise density that the gyro has beyond that per vibration felt, for what shaking does to it", 0.0,
+          1.0);
     visit("gyro_bias", self.gyro_bias, "rad/s/sqrt(s)", "walk of the gyro bias", 0.0, 1e3);
     visit("accelerometer_bias", self.accelerometer_bias, "m/s^2/sqrt(s)", "walk of the accelerometer bias",
           0.0, 1e3);
@@ -90,6 +94,7 @@ class ErrorStateFilter : public Tunable<AidedEstimator, ErrorStateParams> {
   void correct_mag(const Vector3& m_B, Time now) override;
   void correct_baro(double difference, Time now) override;
   void correct_gnss(const GnssObservation& fix, Time now) override;
+  void doubt_heading(double sigma) override;
   Kinematics kinematics() const override { return {x_.p_NB_N, x_.v_NB_N}; }
   Vector3 slow_fix_error_N() const override { return x_.gnss_walk_N; }
   bool is_finite() const override;

@@ -129,7 +129,23 @@ class Px4Reader {
 
   void find_zero();
   void say_what();
+  /// One sample of the IMU: means over the time before it.
+  struct ImuSample {
+    Time when{};
+    Vector3 force = Vector3::Zero();
+    Vector3 rate = Vector3::Zero();
+    bool is_finite() const { return force.allFinite() && rate.allFinite(); }
+  };
+  struct ImuCounts {
+    std::size_t backwards = 0;
+    std::size_t invalid = 0;
+    std::size_t bridged = 0;
+  };
   void read_imu();
+  void add_imu(const ImuSample& sample);
+  /// The logger thins what is logged often. A turn that went on meanwhile must not be lost.
+  /// @param length  over which a sample is the mean, ns. @return how many samples were put in between
+  std::size_t bridge(const ImuSample& before, const ImuSample& after, double length);
   void read_gnss();
   void choose_mag();
   MagCandidate candidate(int instance, const Records& mag) const;
@@ -195,31 +211,52 @@ void Px4Reader::read_imu() {
   const auto rates = imu.find("gyro_rad");
   const auto forces = imu.find("accelerometer_m_s2");
   const auto relative = imu.find("accelerometer_timestamp_relative");
+  const auto length = imu.find("gyro_integral_dt");
   if (!rates || !forces) throw UserError(name_ + ": its IMU samples have no rates or no specific forces");
-  Time last = Time::min();
-  std::size_t backwards = 0;
-  std::size_t invalid = 0;
+  std::optional<ImuSample> before;
+  ImuCounts counts;
   for (std::size_t k = 0; k < imu.size(); ++k) {
-    const Time when = imu.published(k);
-    if (when <= last || when < Time::zero()) {
-      ++backwards;
+    ImuSample sample{imu.published(k), imu.vector(k, forces), imu.vector(k, rates)};
+    if ((before && sample.when <= before->when) || sample.when < Time::zero()) {
+      ++counts.backwards;
       continue;
     }
-    last = when;
-    Vector3 force = imu.vector(k, forces);
-    if (imu.integer(k, relative) == kInvalidSample) force.setConstant(kNoNumber);
-    const Vector3 rate = imu.vector(k, rates);
-    if (!force.allFinite() || !rate.allFinite()) ++invalid;
-    const Eigen::Vector3f f = force.cast<float>();
-    const Eigen::Vector3f w = rate.cast<float>();
-    messages().push_back(
-        {when, rosflight::SmallImu{microseconds(when), f.x(), f.y(), f.z(), w.x(), w.y(), w.z(), 0.0F}});
+    if (imu.integer(k, relative) == kInvalidSample) sample.force.setConstant(kNoNumber);
+    if (!sample.is_finite()) ++counts.invalid;
+    // Before 1.7 in seconds.
+    const double us = imu.number(k, length) * (length && length->type == UlogType::kFloat ? 1e6 : 1.0);
+    if (before && us > 0.0) counts.bridged += bridge(*before, sample, 1e3 * us);
+    add_imu(sample);
+    before = sample;
   }
-  out_.flight.end = last;
-  if (backwards > 0)
-    remark(std::to_string(backwards) + " samples of the IMU whose time does not go on passed over");
-  if (invalid > 0)
-    remark(std::to_string(invalid) + " samples of the IMU are not valid: the estimators do without them");
+  out_.flight.end = before ? before->when : Time::zero();
+  const auto tell = [this](std::size_t count, const char* what) {
+    if (count > 0) remark(std::to_string(count) + " samples of the IMU " + what);
+  };
+  tell(counts.backwards, "whose time does not go on passed over");
+  tell(counts.invalid, "are not valid: the estimators do without them");
+  tell(counts.bridged, "that the log lacks taken from their neighbours");
+}
+
+void Px4Reader::add_imu(const ImuSample& sample) {
+  const Eigen::Vector3f f = sample.force.cast<float>();
+  const Eigen::Vector3f w = sample.rate.cast<float>();
+  messages().push_back({sample.when, rosflight::SmallImu{microseconds(sample.when), f.x(), f.y(), f.z(),
+                                                         w.x(), w.y(), w.z(), 0.0F}});
+}
+
+std::size_t Px4Reader::bridge(const ImuSample& before, const ImuSample& after, double length) {
+  constexpr double kMost = 5.0;  // samples: a longer gap is a gap
+  const double gap = static_cast<double>((after.when - before.when).count()) - length;
+  const double missing = std::round(gap / length);
+  if (!(missing >= 1.0 && missing <= kMost) || !before.is_finite() || !after.is_finite()) return 0;
+  for (double k = 1.0; k <= missing; ++k) {
+    const double share = k / (missing + 1.0);
+    add_imu({before.when + Time(std::llround(gap * k / missing)),
+             before.force + share * (after.force - before.force),
+             before.rate + share * (after.rate - before.rate)});
+  }
+  return static_cast<std::size_t>(missing);
 }
 
 /// The wire's word for PX4's kind of fix.

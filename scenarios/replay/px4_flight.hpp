@@ -30,7 +30,7 @@ struct MagCandidate {
     visit("strength", self.strength, "T", "mean");
     visit("spread", self.spread, "1", "standard deviation of the strength, relative");
     visit("misfit", self.misfit, "1",
-          "how far strength, dip and their spread are from the earth's, relative; the least is taken");
+          "how far its strength is from the earth's, and how it spreads, relative; the least is taken");
   }
 };
 

@@ -88,7 +88,8 @@ Curves velocity_of(const ReportRun& run) {
                                        run.column(kEstimate, "q_NB.y"), run.column(kEstimate, "q_NB.z")};
   const Curve since = estimate_of(run, "p_NB_N.x");
   for (std::size_t k = 0; k < std::min(since.time.size(), q[3].size()); ++k) {
-    const Eigen::Vector3d v_N = Eigen::Quaterniond(q[0][k], q[1][k], q[2][k], q[3][k]) * Eigen::Vector3d(v_B[0][k], v_B[1][k], v_B[2][k]);
+    const Eigen::Vector3d v_N = Eigen::Quaterniond(q[0][k], q[1][k], q[2][k], q[3][k]) *
+                                Eigen::Vector3d(v_B[0][k], v_B[1][k], v_B[2][k]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       out[axis].time.push_back(since.time[k]);
       out[axis].value.push_back(std::isfinite(since.value[k]) ? v_N(static_cast<int>(axis)) : kNoNumber);
@@ -104,8 +105,8 @@ std::string probe_of(const ReportRun& run) {
   return {};
 }
 
-plot::Panel probe_panel(const std::vector<ReportRun>& runs, std::string title, std::string unit, double factor,
-                        const std::string& field, double least_span) {
+plot::Panel probe_panel(const std::vector<ReportRun>& runs, std::string title, std::string unit,
+                        double factor, const std::string& field, double least_span) {
   plot::Panel panel = panel_of(std::move(title), std::move(unit), least_span);
   for (std::size_t i = 0; i < runs.size(); ++i)
     add(panel, label(runs, i), colour(i), scaled(curve_of(runs[i], probe_of(runs[i]), field), factor));
@@ -115,7 +116,8 @@ plot::Panel probe_panel(const std::vector<ReportRun>& runs, std::string title, s
 }  // namespace
 
 bool is_replay(const ReportRun& run) {
-  return run.log().topic(kPosition) != nullptr || run.log().topic(kAttitude) != nullptr || run.log().topic(kFix) != nullptr;
+  return run.log().topic(kPosition) != nullptr || run.log().topic(kAttitude) != nullptr ||
+         run.log().topic(kFix) != nullptr;
 }
 
 plot::Plane replayed_path(const std::vector<ReportRun>& runs) {
@@ -128,7 +130,8 @@ plot::Plane replayed_path(const std::vector<ReportRun>& runs) {
   };
   const ReportRun& first = runs.front();
   track("fixes", kFixStyle, curve_of(first, kFix, "p_N.x"), curve_of(first, kFix, "p_N.y"));
-  track(recorded_name(first), kRecordedStyle, curve_of(first, kPosition, "p_NB_N.x"), curve_of(first, kPosition, "p_NB_N.y"));
+  track(recorded_name(first), kRecordedStyle, curve_of(first, kPosition, "p_NB_N.x"),
+        curve_of(first, kPosition, "p_NB_N.y"));
   for (std::size_t i = 0; i < runs.size(); ++i)
     track(label(runs, i), colour(i), estimate_of(runs[i], "p_NB_N.x"), estimate_of(runs[i], "p_NB_N.y"));
   return plane;
@@ -142,8 +145,10 @@ plot::TimeStack replayed_position(const std::vector<ReportRun>& runs) {
     const std::string field = std::string("p_NB_N") + axis.suffix;
     const char* const known = axis.suffix == kAxes[2].suffix ? "height_known" : "position_known";
     add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("p_N") + axis.suffix));
-    add(panel, recorded_name(first), kRecordedStyle, where(curve_of(first, kPosition, field), curve_of(first, kPosition, known)));
-    for (std::size_t i = 0; i < runs.size(); ++i) add(panel, label(runs, i), colour(i), estimate_of(runs[i], field));
+    add(panel, recorded_name(first), kRecordedStyle,
+        where(curve_of(first, kPosition, field), curve_of(first, kPosition, known)));
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      add(panel, label(runs, i), colour(i), estimate_of(runs[i], field));
     stack.panels.push_back(std::move(panel));
   }
   return stack;
@@ -158,7 +163,8 @@ plot::TimeStack replayed_velocity(const std::vector<ReportRun>& runs) {
     plot::Panel panel = panel_of(kAxes[k].title, "m/s", 0.5);
     add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("v_N") + kAxes[k].suffix));
     add(panel, recorded_name(first), kRecordedStyle,
-        where(curve_of(first, kPosition, std::string("v_NB_N") + kAxes[k].suffix), curve_of(first, kPosition, "velocity_known")));
+        where(curve_of(first, kPosition, std::string("v_NB_N") + kAxes[k].suffix),
+              curve_of(first, kPosition, "velocity_known")));
     for (std::size_t i = 0; i < runs.size(); ++i) add(panel, label(runs, i), colour(i), ours[i][k]);
     stack.panels.push_back(std::move(panel));
   }
@@ -173,7 +179,8 @@ plot::TimeStack replayed_attitude(const std::vector<ReportRun>& runs) {
     plot::Panel panel = panel_of(kNames[k], "deg", k == 2 ? 4.0 : 2.0);
     add(panel, recorded_name(runs.front()), kRecordedStyle, broken_at_wraps(scaled(recorded[k], kDegrees)));
     for (std::size_t i = 0; i < runs.size(); ++i)
-      add(panel, label(runs, i), colour(i), broken_at_wraps(scaled(estimate_of(runs[i], kNames[k]), kDegrees)));
+      add(panel, label(runs, i), colour(i),
+          broken_at_wraps(scaled(estimate_of(runs[i], kNames[k]), kDegrees)));
     stack.panels.push_back(std::move(panel));
   }
   return stack;
@@ -202,12 +209,15 @@ plot::TimeStack replayed_differences(const std::vector<ReportRun>& runs) {
     plot::Panel panel = panel_of(row.title, row.unit, row.least_span);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       constexpr double kSigmas = 3.0;
-      const Curve sigma = row.sigma == nullptr ? Curve{} : scaled(estimate_of(runs[i], row.sigma), kSigmas * row.factor);
+      const Curve sigma =
+          row.sigma == nullptr ? Curve{} : scaled(estimate_of(runs[i], row.sigma), kSigmas * row.factor);
       if (!sigma.empty()) {
-        panel.strips.push_back({runs.size() == 1 ? "3\u03c3" : "", colour(i) + (runs.size() == 1 ? "" : " several"),
-                                sigma.time, scaled(sigma, -1.0).value, sigma.value});
+        panel.strips.push_back({runs.size() == 1 ? "3\u03c3" : "",
+                                colour(i) + (runs.size() == 1 ? "" : " several"), sigma.time,
+                                scaled(sigma, -1.0).value, sigma.value});
       }
-      add(panel, label(runs, i), colour(i), without_gaps(scaled(curve_of(runs[i], kDifference, row.field), row.factor)));
+      add(panel, label(runs, i), colour(i),
+          without_gaps(scaled(curve_of(runs[i], kDifference, row.field), row.factor)));
     }
     if (panel.series.empty()) panel.strips.clear();
     stack.panels.push_back(std::move(panel));
@@ -216,13 +226,20 @@ plot::TimeStack replayed_differences(const std::vector<ReportRun>& runs) {
 }
 
 plot::TimeStack replayed_innovations(const std::vector<ReportRun>& runs) {
-  plot::TimeStack stack{"How the measurements fitted: normalised innovations squared, and how many were refused so far", {}, 1180.0, 84.0};
-  constexpr std::array<std::pair<const char*, const char*>, 4> kSensors{
-      {{"fix, position", "position"}, {"fix, velocity", "velocity"}, {"barometer", "baro"}, {"compass", "mag"}}};
+  plot::TimeStack stack{
+      "How the measurements fitted: normalised innovations squared, and how many were refused so far",
+      {},
+      1180.0,
+      84.0};
+  constexpr std::array<std::pair<const char*, const char*>, 4> kSensors{{{"fix, position", "position"},
+                                                                         {"fix, velocity", "velocity"},
+                                                                         {"barometer", "baro"},
+                                                                         {"compass", "mag"}}};
   for (const auto& [title, name] : kSensors) {
     plot::Panel panel = probe_panel(runs, title, "1", 1.0, std::string("nis_") + name, 1.0);
     for (std::size_t i = 0; i < runs.size(); ++i)
-      add(panel, "refused", colour(i) + " dashed", curve_of(runs[i], probe_of(runs[i]), std::string("rejected_") + name));
+      add(panel, "refused", colour(i) + " dashed",
+          curve_of(runs[i], probe_of(runs[i]), std::string("rejected_") + name));
     stack.panels.push_back(std::move(panel));
   }
   return stack;
@@ -232,11 +249,14 @@ plot::TimeStack replayed_biases(const std::vector<ReportRun>& runs) {
   plot::TimeStack stack{"Biases that were found", {}, 1180.0, 84.0};
   for (const auto& [title, field, unit, factor] :
        std::initializer_list<std::tuple<const char*, const char*, const char*, double>>{
-           {"gyro", "gyro_bias_B", "deg/s", kDegrees}, {"accelerometer", "accelerometer_bias_B", "m/s^2", 1.0}}) {
-    for (const auto& [axis, suffix] : {std::pair("front", ".x"), std::pair("right", ".y"), std::pair("down", ".z")}) {
+           {"gyro", "gyro_bias_B", "deg/s", kDegrees},
+           {"accelerometer", "accelerometer_bias_B", "m/s^2", 1.0}}) {
+    for (const auto& [axis, suffix] :
+         {std::pair("front", ".x"), std::pair("right", ".y"), std::pair("down", ".z")}) {
       plot::Panel panel = panel_of(std::string(title) + ", " + axis, unit, 0.01);
       for (std::size_t i = 0; i < runs.size(); ++i)
-        add(panel, label(runs, i), colour(i), scaled(estimate_of(runs[i], std::string(field) + suffix), factor));
+        add(panel, label(runs, i), colour(i),
+            scaled(estimate_of(runs[i], std::string(field) + suffix), factor));
       stack.panels.push_back(std::move(panel));
     }
   }

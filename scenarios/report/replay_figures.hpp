@@ -12,8 +12,9 @@ namespace ironbird::scenarios {
 /// Is this the log of a recorded flight that was replayed?
 bool is_replay(const ReportRun& run);
 
-// The figures of such logs: the estimate that was made anew beside the recorded one and the receiver's fixes. ROScopter
-// paper, results, its last experiment. With several runs colour tells them apart; the recorded one is the first run's.
+// The figures of such logs: the estimate that was made anew beside the recorded one and the receiver's fixes.
+// ROScopter paper, results, its last experiment. With several runs colour tells them apart; the recorded one
+// is the first run's.
 plot::Plane replayed_path(const std::vector<ReportRun>& runs);
 plot::TimeStack replayed_position(const std::vector<ReportRun>& runs);
 plot::TimeStack replayed_velocity(const std::vector<ReportRun>& runs);

@@ -225,6 +225,28 @@ TEST_P(FilterTest, GivesTheSameBytesAfterAReset) {
   EXPECT_EQ(first.q_NB.coeffs(), x.q_NB.coeffs());
 }
 
+// What a compass says on a field with iron in it, real flights say, is up to 20 degrees wrong.
+TEST_P(FilterTest, SeeksTheHeadingAnewAboveTheGroundsIron) {
+  const auto fly_from_iron = [this](double ground_sigma) {
+    AidingParams aiding;
+    aiding.mag.ground_sigma = ground_sigma;
+    make(aiding, false);
+    sensors = FakeSensors(5);
+    sensors.path.pace = 0.25;  // so little acceleration that the fixes say nothing of the heading
+    sensors.errors.compass = 0.35;
+    while (sensors.truth().p_N.z() > -aiding.mag.ground_height) step(armed(sensors.next()));
+    sensors.errors.compass = 0.0;
+    const double end = sensors.time() + 1.0;
+    while (sensors.time() < end) step(armed(sensors.next()));
+    return std::abs(shortest_difference(x.heading, sensors.truth().theta.z()));
+  };
+  const double without = fly_from_iron(0.0);
+  EXPECT_GT(without, 0.2);
+  EXPECT_LT(fly_from_iron(0.5), 0.25 * without);
+  EXPECT_LT(speed_error(), 2.0 * kGoodSpeed) << "the velocity over ground does not turn with the heading";
+  EXPECT_EQ(x.health, Health::kGood);
+}
+
 INSTANTIATE_TEST_SUITE_P(Filters, FilterTest, ::testing::Values(Kind::kEkf, Kind::kErrorState),
                          [](const auto& case_) { return case_.param == Kind::kEkf ? "Ekf" : "ErrorState"; });
 

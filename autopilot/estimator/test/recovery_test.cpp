@@ -27,6 +27,7 @@ class BrittleFilter final : public AidedEstimator {
   void correct_mag(const Vector3&, Time) override {}
   void correct_baro(double, Time) override {}
   void correct_gnss(const GnssObservation& fix, Time) override { last_fix = fix; }
+  void doubt_heading(double) override {}
   Kinematics kinematics() const override { return {started.p_NB_N, started.v_NB_N}; }
   bool is_finite() const override { return !broken; }
   void publish(StateEstimate& x) const override {
