@@ -432,17 +432,24 @@ void Px4Reader::read_baro() {
   }
 }
 
+// With samples of the IMU only: two of them may be days apart.
 void Px4Reader::read_status() {
   const Records status = records("vehicle_status");
   const auto arming = status.find("arming_state");
   constexpr std::int64_t kArmed = 2;
   std::size_t next = 0;
   bool armed = false;
-  for (Time now{}; now <= out_.flight.end; now += kStatusPeriod) {
-    for (; next < status.size() && status.published(next) <= now; ++next)
+  Time due{};
+  const std::size_t so_far = messages().size();
+  for (std::size_t k = 0; k < so_far; ++k) {
+    const Time now = messages()[k].when;
+    if (!is_imu(messages()[k]) || now < due) continue;
+    for (; next < status.size() && status.published(next) <= now; ++next) {
       armed = status.integer(next, arming) == kArmed;
+    }
     messages().push_back(
         {now, rosflight::RosflightStatus{.armed = static_cast<std::uint8_t>(armed ? 1 : 0)}});
+    due = now + kStatusPeriod;
   }
 }
 

@@ -19,7 +19,9 @@ using test::KnownFlight;
 
 json replay(const KnownFlight& flight, const std::string& more) {
   const std::string log = (test::flights_folder() / "px4" / (std::string(flight.file) + ".ulg")).string();
-  const std::string command = std::string(IRONBIRD_PROGRAM) + " replay '" + log + "' --no-log --json --out '" + testing::TempDir() + "ironbird_flights' " + more + " 2>/dev/null";
+  const std::string command = std::string(IRONBIRD_PROGRAM) + " replay '" + log +
+                              "' --no-log --json --out '" + testing::TempDir() + "ironbird_flights' " + more +
+                              " 2>/dev/null";
   FILE* const pipe = popen(command.c_str(), "r");
   std::string text;
   std::array<char, 4096> part{};
@@ -40,9 +42,9 @@ struct Bounds {
 constexpr Bounds kEuler{"ekf", 0.25, 0.30, 1.0, 0.8, 5.0};
 constexpr Bounds kErrorState{"error_state", 0.15, 0.20, 0.5, 0.5, 4.0};
 
-/// Bounds of a flight on which they are not reached: what is, with a twentieth to spare. On the X8, which shakes three times as much as the
-/// others, no set of parameters reaches 0.5 degrees of roll. On the V6C, PX4 flew on the other magnetometer and stepped its heading by 14
-/// degrees within the window.
+/// Bounds of a flight on which they are not reached: what is, with a twentieth to spare. On the X8, which
+/// shakes three times as much as the others, no set of parameters reaches 0.5 degrees of roll. On the V6C,
+/// PX4 flew on the other magnetometer and stepped its heading by 14 degrees within the window.
 Bounds reached(const KnownFlight& flight, Bounds bounds) {
   if (bounds.kind != std::string("error_state")) return bounds;
   if (flight.file == std::string("x8_octo_altctl")) bounds.roll_pitch = 0.62;
@@ -56,12 +58,15 @@ TEST_P(FlightsTest, StaysNearPx4sEstimate) {
   IRONBIRD_NEEDS_FLIGHTS();
   const auto& [flight, wanted] = GetParam();
   const Bounds bounds = reached(flight, wanted);
-  const json verdict = replay(flight, std::string("--window ") + flight.window + " --declination=" + flight.declination + " --mag " + flight.mag + " --set autopilot.estimator.kind=" + bounds.kind);
+  const json verdict =
+      replay(flight, std::string("--window ") + flight.window + " --declination=" + flight.declination +
+                         " --mag " + flight.mag + " --set autopilot.estimator.kind=" + bounds.kind);
   const json& found = verdict["metrics"];
   EXPECT_EQ(verdict["verdict"], "pass");
   EXPECT_EQ(found["compared_share"], 1.0);
   const bool hovers = std::string(flight.file) == "cube_quad_hover";
-  EXPECT_LE(found["horizontal_difference_rms_m"], hovers && bounds.kind == std::string("ekf") ? 0.05 : bounds.horizontal);
+  EXPECT_LE(found["horizontal_difference_rms_m"],
+            hovers && bounds.kind == std::string("ekf") ? 0.05 : bounds.horizontal);
   EXPECT_LE(found["velocity_difference_rms_mps"], bounds.velocity);
   EXPECT_LE(found["down_difference_rms_m"], bounds.down);
   EXPECT_LE(found["roll_difference_rms_deg"], bounds.roll_pitch);
@@ -74,10 +79,12 @@ std::string name_of_case(const testing::TestParamInfo<std::tuple<KnownFlight, Bo
 }
 
 INSTANTIATE_TEST_SUITE_P(Known, FlightsTest,
-                         testing::Combine(testing::ValuesIn(test::kKnownFlights), testing::Values(kEuler, kErrorState)),
+                         testing::Combine(testing::ValuesIn(test::kKnownFlights),
+                                          testing::Values(kEuler, kErrorState)),
                          name_of_case);
 
-// Whatever is taken for the compass, the declination or the time that counts: no filter runs away, and each says so when it is lost.
+// Whatever is taken for the compass, the declination or the time that counts: no filter runs away, and each
+// says so when it is lost.
 TEST(FlightsTest, DoesNotDivergeWithAnyMagnetometer) {
   IRONBIRD_NEEDS_FLIGHTS();
   for (const KnownFlight& flight : test::kKnownFlights) {
@@ -85,7 +92,8 @@ TEST(FlightsTest, DoesNotDivergeWithAnyMagnetometer) {
       for (const char* const mag : {"0", "1"}) {
         const bool has = std::string(mag) == "0" || std::string(flight.mag) == "1";
         if (!has) continue;
-        const json verdict = replay(flight, std::string("--mag ") + mag + " --set autopilot.estimator.kind=" + kind);
+        const json verdict =
+            replay(flight, std::string("--mag ") + mag + " --set autopilot.estimator.kind=" + kind);
         const json& found = verdict["metrics"];
         EXPECT_EQ(verdict["verdict"], "pass") << flight.file << ' ' << kind << ' ' << mag;
         EXPECT_LE(found["horizontal_difference_rms_m"], 1.0) << flight.file << ' ' << kind << ' ' << mag;

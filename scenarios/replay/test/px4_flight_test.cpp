@@ -1,4 +1,5 @@
-// PX4 logs made by hand: which field of which version becomes which message, and what is said of what is missing.
+// PX4 logs made by hand: which field of which version becomes which message, and what is said of what is
+// missing.
 
 #include "scenarios/replay/px4_flight.hpp"
 
@@ -29,7 +30,9 @@ constexpr double kRadians = std::numbers::pi / 180.0;
 class Px4Log {
  public:
   Px4Log() {
-    log_.format("sensor_combined:uint64_t timestamp;float[3] gyro_rad;uint32_t gyro_integral_dt;int32_t accelerometer_timestamp_relative;float[3] accelerometer_m_s2;");
+    log_.format(
+        "sensor_combined:uint64_t timestamp;float[3] gyro_rad;uint32_t gyro_integral_dt;int32_t "
+        "accelerometer_timestamp_relative;float[3] accelerometer_m_s2;");
     log_.subscribe(0, 1, "sensor_combined");
   }
   Px4Log& imu(std::uint64_t at, std::int32_t relative = 0, float rate = 0.1F) {
@@ -41,7 +44,9 @@ class Px4Log {
     return *this;
   }
   UlogByHand& log() { return log_; }
-  Px4Flight read(const Px4Choice& choice = {}) const { return read_px4_flight(log_.read(), "by_hand.ulg", choice); }
+  Px4Flight read(const Px4Choice& choice = {}) const {
+    return read_px4_flight(log_.read(), "by_hand.ulg", choice);
+  }
 
  private:
   UlogByHand log_;
@@ -51,16 +56,22 @@ template <class Content>
 std::vector<std::pair<Time, Content>> of(const Px4Flight& px4) {
   std::vector<std::pair<Time, Content>> found;
   for (const hil_bridge::Arrival& arrival : px4.flight.messages) {
-    if (const auto* content = std::get_if<Content>(&arrival.message)) found.emplace_back(arrival.when, *content);
+    if (const auto* content = std::get_if<Content>(&arrival.message))
+      found.emplace_back(arrival.when, *content);
   }
   return found;
 }
 
 void add_old_fixes(UlogByHand& log) {
-  log.format("vehicle_gps_position:uint64_t timestamp;uint64_t time_utc_usec;int32_t lat;int32_t lon;int32_t alt;float s_variance_m_s;float eph;float epv;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;uint8_t fix_type;bool vel_ned_valid;uint8_t satellites_used;");
+  log.format(
+      "vehicle_gps_position:uint64_t timestamp;uint64_t time_utc_usec;int32_t lat;int32_t lon;int32_t "
+      "alt;float s_variance_m_s;float eph;float epv;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;uint8_t "
+      "fix_type;bool vel_ned_valid;uint8_t satellites_used;");
   log.subscribe(0, 2, "vehicle_gps_position");
   for (std::uint64_t k = 0; k < 5; ++k)
-    log.record(2, kBoot + 200'000 * k, std::uint64_t{1'685'000'000'000'000}, std::int32_t{473'000'000}, std::int32_t{85'000'000}, std::int32_t{432'100}, 0.3F, 1.5F, 2.5F, 1.0F, -2.0F, 0.5F, std::uint8_t{4}, std::uint8_t{1}, std::uint8_t{14});
+    log.record(2, kBoot + 200'000 * k, std::uint64_t{1'685'000'000'000'000}, std::int32_t{473'000'000},
+               std::int32_t{85'000'000}, std::int32_t{432'100}, 0.3F, 1.5F, 2.5F, 1.0F, -2.0F, 0.5F,
+               std::uint8_t{4}, std::uint8_t{1}, std::uint8_t{14});
 }
 
 TEST(Px4FlightTest, MakesFramesOfTheImu) {
@@ -124,8 +135,12 @@ TEST(Px4FlightTest, ReadsFixesWithWholeLatitudesAndTheirAge) {
 TEST(Px4FlightTest, ReadsFixesInDegrees) {
   Px4Log log;
   log.second();
-  log.log().format("sensor_gps:uint64_t timestamp;double latitude_deg;double longitude_deg;double altitude_msl_m;uint8_t fix_type;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;");
-  log.log().subscribe(0, 2, "sensor_gps").record(2, kBoot + 100'000, 33.5, -117.5, 46.9, std::uint8_t{6}, 0.0F, 0.0F, 0.0F);
+  log.log().format(
+      "sensor_gps:uint64_t timestamp;double latitude_deg;double longitude_deg;double altitude_msl_m;uint8_t "
+      "fix_type;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;");
+  log.log()
+      .subscribe(0, 2, "sensor_gps")
+      .record(2, kBoot + 100'000, 33.5, -117.5, 46.9, std::uint8_t{6}, 0.0F, 0.0F, 0.0F);
   const auto fixes = of<rosflight::RosflightGnss>(log.read());
   ASSERT_EQ(fixes.size(), 1U);
   EXPECT_DOUBLE_EQ(fixes[0].second.lat, 33.5);
@@ -142,14 +157,28 @@ TEST(Px4FlightTest, ReadsEveryLayoutOfTheBarometer) {
     log.log().format(format).subscribe(0, 3, topic).record(3, kBoot + 20'000, values...);
     return of<rosflight::SmallBaro>(log.read()).at(0).second;
   };
-  const auto old = first_of("vehicle_air_data:uint64_t timestamp;float baro_alt_meter;float baro_temp_celcius;float baro_pressure_pa;", "vehicle_air_data", 100.0F, 25.0F, 101'000.0F);
+  const auto old = first_of(
+      "vehicle_air_data:uint64_t timestamp;float baro_alt_meter;float baro_temp_celcius;float "
+      "baro_pressure_pa;",
+      "vehicle_air_data", 100.0F, 25.0F, 101'000.0F);
   EXPECT_EQ(old.pressure, 101'000.0F);
   EXPECT_FLOAT_EQ(old.temperature, 298.15F);
-  const auto newer = first_of("vehicle_air_data:uint64_t timestamp;float baro_alt_meter;float baro_pressure_pa;float ambient_temperature;", "vehicle_air_data", 100.0F, 95'000.0F, 30.0F);
+  const auto newer = first_of(
+      "vehicle_air_data:uint64_t timestamp;float baro_alt_meter;float baro_pressure_pa;float "
+      "ambient_temperature;",
+      "vehicle_air_data", 100.0F, 95'000.0F, 30.0F);
   EXPECT_EQ(newer.pressure, 95'000.0F);
   EXPECT_FLOAT_EQ(newer.temperature, 303.15F);
-  EXPECT_EQ(first_of("sensor_baro:uint64_t timestamp;float pressure;float temperature;", "sensor_baro", 1013.25F, 20.0F).pressure, 101'325.0F) << "hectopascal";
-  EXPECT_NEAR(first_of("vehicle_air_data:uint64_t timestamp;float baro_alt_meter;", "vehicle_air_data", 1000.0F).pressure, 89'875.0, 5.0) << "a height alone";
+  EXPECT_EQ(first_of("sensor_baro:uint64_t timestamp;float pressure;float temperature;", "sensor_baro",
+                     1013.25F, 20.0F)
+                .pressure,
+            101'325.0F)
+      << "hectopascal";
+  EXPECT_NEAR(
+      first_of("vehicle_air_data:uint64_t timestamp;float baro_alt_meter;", "vehicle_air_data", 1000.0F)
+          .pressure,
+      89'875.0, 5.0)
+      << "a height alone";
 }
 
 /// Magnetometers with these strengths, gauss, in the order of their instances.
@@ -161,7 +190,8 @@ Px4Flight with_mags(const std::vector<float>& strengths, const Px4Choice& choice
   for (std::size_t k = 0; k < strengths.size(); ++k) {
     const auto id = static_cast<std::uint16_t>(10 + k);
     log.log().subscribe(static_cast<std::uint8_t>(k), id, "vehicle_magnetometer");
-    for (std::uint64_t i = 0; i < 2; ++i) log.log().record(id, kBoot + 500'000 * i, 0.1F * strengths[k], 0.0F, std::sqrt(0.99F) * strengths[k]);
+    for (std::uint64_t i = 0; i < 2; ++i)
+      log.log().record(id, kBoot + 500'000 * i, 0.1F * strengths[k], 0.0F, std::sqrt(0.99F) * strengths[k]);
   }
   return log.read(choice);
 }
@@ -190,13 +220,18 @@ TEST(Px4FlightTest, TakesTheMagnetometerThatIsNamedOrSaysWhichThereAre) {
 TEST(Px4FlightTest, ReadsTheRecordedEstimateWhereItWasBelieved) {
   Px4Log log;
   log.second();
-  log.log().format("vehicle_attitude:uint64_t timestamp;uint64_t timestamp_sample;float[4] q;").subscribe(0, 20, "vehicle_attitude");
+  log.log()
+      .format("vehicle_attitude:uint64_t timestamp;uint64_t timestamp_sample;float[4] q;")
+      .subscribe(0, 20, "vehicle_attitude");
   log.log().record(20, kBoot + 101'000, kBoot + 100'000, 1.0F, 0.0F, 0.0F, 0.0F);
   log.log().record(20, kBoot + 201'000, kBoot + 200'000, std::nanf(""), 0.0F, 0.0F, 0.0F);
-  log.log().format("vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float y;float z;float vx;float vy;float vz;float ref_alt;bool xy_valid;bool z_valid;bool v_xy_valid;bool v_z_valid;");
+  log.log().format(
+      "vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float y;float z;float "
+      "vx;float vy;float vz;float ref_alt;bool xy_valid;bool z_valid;bool v_xy_valid;bool v_z_valid;");
   log.log().subscribe(0, 21, "vehicle_local_position");
   const auto position = [&log](std::uint64_t at, std::uint8_t valid) {
-    log.log().record(21, kBoot + at, 47.3, 8.5, 1.0F, 2.0F, -3.0F, 0.1F, 0.2F, 0.3F, 430.0F, valid, std::uint8_t{1}, valid, std::uint8_t{1});
+    log.log().record(21, kBoot + at, 47.3, 8.5, 1.0F, 2.0F, -3.0F, 0.1F, 0.2F, 0.3F, 430.0F, valid,
+                     std::uint8_t{1}, valid, std::uint8_t{1});
   };
   position(100'000, 0);
   position(300'000, 1);
@@ -217,15 +252,26 @@ TEST(Px4FlightTest, ReadsTheRecordedEstimateWhereItWasBelieved) {
 TEST(Px4FlightTest, KnowsWhenItWasAirborneAndArmed) {
   Px4Log log;
   log.second();
-  log.log().format("vehicle_land_detected:uint64_t timestamp;bool landed;").subscribe(0, 30, "vehicle_land_detected");
-  log.log().record(30, kBoot - 900'000, std::uint8_t{1}).record(30, kBoot + 300'000, std::uint8_t{0}).record(30, kBoot + 700'000, std::uint8_t{1});
-  log.log().format("vehicle_status:uint64_t timestamp;uint8_t arming_state;uint8_t hil_state;uint8_t vehicle_type;").subscribe(0, 31, "vehicle_status");
-  log.log().record(31, kBoot - 900'000, std::uint8_t{1}, std::uint8_t{0}, std::uint8_t{1}).record(31, kBoot + 250'000, std::uint8_t{2}, std::uint8_t{0}, std::uint8_t{1});
+  log.log()
+      .format("vehicle_land_detected:uint64_t timestamp;bool landed;")
+      .subscribe(0, 30, "vehicle_land_detected");
+  log.log()
+      .record(30, kBoot - 900'000, std::uint8_t{1})
+      .record(30, kBoot + 300'000, std::uint8_t{0})
+      .record(30, kBoot + 700'000, std::uint8_t{1});
+  log.log()
+      .format(
+          "vehicle_status:uint64_t timestamp;uint8_t arming_state;uint8_t hil_state;uint8_t vehicle_type;")
+      .subscribe(0, 31, "vehicle_status");
+  log.log()
+      .record(31, kBoot - 900'000, std::uint8_t{1}, std::uint8_t{0}, std::uint8_t{1})
+      .record(31, kBoot + 250'000, std::uint8_t{2}, std::uint8_t{0}, std::uint8_t{1});
   const Px4Flight px4 = log.read();
   ASSERT_EQ(px4.flight.airborne.size(), 1U);
   EXPECT_EQ(px4.flight.airborne[0].begin, milliseconds(300));
   EXPECT_EQ(px4.flight.airborne[0].end, milliseconds(700));
-  for (const auto& [when, status] : of<rosflight::RosflightStatus>(px4)) EXPECT_EQ(status.armed != 0, when >= milliseconds(300));
+  for (const auto& [when, status] : of<rosflight::RosflightStatus>(px4))
+    EXPECT_EQ(status.armed != 0, when >= milliseconds(300));
   EXPECT_FALSE(px4.simulated);
 }
 
@@ -233,13 +279,23 @@ TEST(Px4FlightTest, SaysWhatIsMissingOrIsNoFlight) {
   Px4Log log;
   log.log().keyed('I', "char[9] ver_hw", "PX4_SITL_").keyed('I', "char[3] sys_name", "PX4");
   log.second();
-  log.log().format("vehicle_status:uint64_t timestamp;uint8_t vehicle_type;").subscribe(0, 31, "vehicle_status").record(31, kBoot, std::uint8_t{2});
+  log.log()
+      .format("vehicle_status:uint64_t timestamp;uint8_t vehicle_type;")
+      .subscribe(0, 31, "vehicle_status")
+      .record(31, kBoot, std::uint8_t{2});
   const Px4Flight px4 = log.read();
   EXPECT_TRUE(px4.simulated);
-  for (const char* said : {"the log of a simulation", "the log of a fixed wing", "no GNSS fixes", "no magnetometer", "no barometer", "no estimate of PX4's"})
+  for (const char* said : {"the log of a simulation", "the log of a fixed wing", "no GNSS fixes",
+                           "no magnetometer", "no barometer", "no estimate of PX4's"})
     EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr(said)));
   UlogByHand empty;
   EXPECT_THROW(read_px4_flight(empty.read(), "empty.ulg"), UserError);
+}
+
+TEST(Px4FlightTest, MakesNoMoreOfAGapOfDaysThanOfOneOfSeconds) {
+  Px4Log log;
+  log.imu(0).imu(4000).imu(900'000'000'000);
+  EXPECT_LT(log.read().flight.messages.size(), 10U);
 }
 
 TEST(Px4FlightTest, PutsTheImuBehindWhatCameAtTheSameTime) {
