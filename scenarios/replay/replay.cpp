@@ -50,6 +50,8 @@ void Replay::wire_log(const LoadedScenario& loaded) {
       options_.log_file,
       McapOptions{.journal = loaded.scenario.record.journal, .compress = loaded.scenario.record.compress},
       loaded, FlightLog::Sources{*autopilot_, telemetry_, nullptr});
+  const std::string whose = flight_.estimates.empty() ? "" : flight_.estimates.front().name;
+  log_->recorder().metadata("run", {{"flight", flight_.what}, {"recorded", whose}});
 }
 
 ReplayResult Replay::run() {

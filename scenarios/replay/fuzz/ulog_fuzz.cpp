@@ -1,5 +1,6 @@
-// Any bytes as a ULog file, and any flight that it may tell of: it is refused in one line that names the file, or it is read; every record
-// is as long as its layout says, every field that a layout has can be found and read, and what becomes of it for the autopilot is in order.
+// Any bytes as a ULog file, and any flight that it may tell of: it is refused in one line that names the
+// file, or it is read; every record is as long as its layout says, every field that a layout has can be found
+// and read, and what becomes of it for the autopilot is in order.
 
 #include <algorithm>
 #include <cstring>
@@ -23,20 +24,36 @@ constexpr std::uint8_t kHeader[] = {'U', 'L', 'o', 'g', 0x01, 0x12, 0x35, 1, 0, 
 
 // Topics that make a flight, in fields of several versions.
 constexpr const char* kFormats[] = {
-    "sensor_combined:uint64_t timestamp;float[3] gyro_rad;uint32_t gyro_integral_dt;int32_t accelerometer_timestamp_relative;float[3] accelerometer_m_s2;",
-    "vehicle_gps_position:uint64_t timestamp;uint64_t time_utc_usec;int32_t lat;int32_t lon;int32_t alt;float eph;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;uint8_t fix_type;bool vel_ned_valid;",
-    "sensor_gps:uint64_t timestamp;double latitude_deg;double longitude_deg;double altitude_msl_m;uint8_t fix_type;",
+    "sensor_combined:uint64_t timestamp;float[3] gyro_rad;uint32_t gyro_integral_dt;int32_t "
+    "accelerometer_timestamp_relative;float[3] accelerometer_m_s2;",
+    "vehicle_gps_position:uint64_t timestamp;uint64_t time_utc_usec;int32_t lat;int32_t lon;int32_t "
+    "alt;float eph;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;uint8_t fix_type;bool vel_ned_valid;",
+    "sensor_gps:uint64_t timestamp;double latitude_deg;double longitude_deg;double altitude_msl_m;uint8_t "
+    "fix_type;",
     "vehicle_magnetometer:uint64_t timestamp;float[3] magnetometer_ga;",
     "vehicle_air_data:uint64_t timestamp;float baro_pressure_pa;float baro_temp_celcius;",
     "vehicle_attitude:uint64_t timestamp;float[4] q;uint8_t[4] _padding0;",
-    "vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float y;float z;bool xy_valid;",
+    "vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float y;float z;bool "
+    "xy_valid;",
     "vehicle_status:uint64_t timestamp;uint8_t arming_state;uint8_t hil_state;uint8_t vehicle_type;",
     "vehicle_land_detected:uint64_t timestamp;bool landed;",
     "outer:uint64_t timestamp;inner[3] part;",
     "inner:float a;outer b;",
     "esc:inner2[8] esc;uint64_t timestamp;",
     "inner2:uint64_t t;int16_t v;uint8_t[6] _padding0;"};
-constexpr const char* kTopics[] = {"sensor_combined", "vehicle_gps_position", "sensor_gps", "vehicle_magnetometer", "vehicle_air_data", "vehicle_attitude", "vehicle_local_position", "vehicle_status", "vehicle_land_detected", "outer", "inner", "esc", "inner2"};
+constexpr const char* kTopics[] = {"sensor_combined",
+                                   "vehicle_gps_position",
+                                   "sensor_gps",
+                                   "vehicle_magnetometer",
+                                   "vehicle_air_data",
+                                   "vehicle_attitude",
+                                   "vehicle_local_position",
+                                   "vehicle_status",
+                                   "vehicle_land_detected",
+                                   "outer",
+                                   "inner",
+                                   "esc",
+                                   "inner2"};
 
 class LogWriter {
  public:
@@ -55,7 +72,9 @@ class LogWriter {
     bytes_.push_back(static_cast<std::uint8_t>(type));
     bytes_.insert(bytes_.end(), content.begin(), content.end());
   }
-  static void append(std::vector<std::uint8_t>& to, const char* text) { to.insert(to.end(), text, text + std::strlen(text)); }
+  static void append(std::vector<std::uint8_t>& to, const char* text) {
+    to.insert(to.end(), text, text + std::strlen(text));
+  }
   std::vector<std::uint8_t> some(std::size_t most) {
     const auto bytes = choices_.take(choices_.below(most));
     return {bytes.begin(), bytes.end()};
@@ -129,9 +148,11 @@ void expect_sound(const UlogFile& file) {
 
 void expect_in_order(const scenarios::Px4Flight& px4) {
   const auto& messages = px4.flight.messages;
-  require(std::is_sorted(messages.begin(), messages.end(), [](const auto& one, const auto& other) { return one.when < other.when; }),
+  require(std::is_sorted(messages.begin(), messages.end(),
+                         [](const auto& one, const auto& other) { return one.when < other.when; }),
           "messages are in the order of time");
-  require(messages.empty() || messages.front().when >= hil_bridge::Time::zero(), "nothing is before the beginning");
+  require(messages.empty() || messages.front().when >= hil_bridge::Time::zero(),
+          "nothing is before the beginning");
 }
 
 }  // namespace
