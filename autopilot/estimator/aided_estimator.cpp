@@ -16,7 +16,6 @@ namespace {
 constexpr double kLongestStep = 0.02;  // s, a longer gap between IMU samples is crossed in several steps
 constexpr double kImuSilence = 0.05;   // s
 constexpr double kSoonAgain = 15.0;    // s, between two resets of velocity or heading
-constexpr double kNoHeight = 1.0e3;    // m, sigma of a height without weight
 constexpr double kFreshFix = 1.0;      // s, a fix that may still replace a broken state
 
 /// A start in motion from what was last known, in full: the accelerometer's bias as well.
@@ -30,26 +29,6 @@ StartState going_on_from(const StateEstimate& last, const LocalOrigin& origin) {
   found.accelerometer_offset_B = last.accelerometer_bias_B;
   found.moving = true;
   return found;
-}
-
-/// Fills the variances.
-void weigh(GnssObservation& fix, const GnssSample& gnss, const GnssParams& wanted) {
-  const double sigma_vertical = wanted.sigma_vertical.value_or(kNoHeight);
-  Vector3 sigma_p(wanted.sigma_horizontal, wanted.sigma_horizontal, sigma_vertical);
-  Vector3 sigma_v(wanted.sigma_velocity_horizontal, wanted.sigma_velocity_horizontal,
-                  wanted.sigma_velocity_vertical);
-  const double gate_sigma = std::min(wanted.sigma_horizontal, wanted.gate_sigma);
-  Vector3 gate_sigma_p(gate_sigma, gate_sigma, sigma_vertical);
-  if (wanted.use_receiver_accuracy) {
-    const double horizontal = gnss.horizontal_accuracy;
-    const Vector3 claimed(horizontal, horizontal, gnss.vertical_accuracy);
-    sigma_p = sigma_p.cwiseMax(claimed);
-    gate_sigma_p = gate_sigma_p.cwiseMax(claimed);
-    sigma_v = sigma_v.cwiseMax(gnss.speed_accuracy);
-  }
-  fix.variance_p = sigma_p.cwiseProduct(sigma_p);
-  fix.gate_variance_p = gate_sigma_p.cwiseProduct(gate_sigma_p);
-  fix.variance_v = sigma_v.cwiseProduct(sigma_v);
 }
 
 }  // namespace
@@ -69,8 +48,7 @@ void AidedEstimator::reset() {
   accelerometer_offset_B_.setZero();
   w_filtered_B_.setZero();
   rates_known_ = false;
-  f_slow_B_.setZero();
-  vibration_square_ = 0.0;
+  vibration_ = VibrationWatch{};
   delay_line_.clear();
   gates_ = Gates{};
   heard_ = Heard{};
@@ -173,17 +151,9 @@ void AidedEstimator::filter_rates(const Vector3& w_B, double dt) {
   w_filtered_B_ = kept * w_filtered_B_ + (1.0 - kept) * w_B;
 }
 
-void AidedEstimator::feel_vibration(const Vector3& f_B, double dt) {
-  constexpr double kSlow = 0.1;    // s, what changes slower is the vehicle's motion
-  constexpr double kMemory = 1.0;  // s
-  if (f_slow_B_.isZero(0.0)) f_slow_B_ = f_B;
-  f_slow_B_ += std::min(dt / kSlow, 1.0) * (f_B - f_slow_B_);
-  vibration_square_ += std::min(dt / kMemory, 1.0) * ((f_B - f_slow_B_).squaredNorm() - vibration_square_);
-}
-
 void AidedEstimator::advance(const ImuSample& imu, double dt) {
   if (dt <= 0.0) return;
-  feel_vibration(imu.f_B, dt);
+  vibration_.add(imu.f_B, dt);
   const double crossed = std::min(dt, seconds(FrameClock::kLongestGap));
   const int steps = static_cast<int>(std::ceil(crossed / kLongestStep));
   const Vector3 f_B = imu.f_B - accelerometer_offset_B_;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "autopilot/estimator/aiding_params.hpp"
@@ -9,7 +8,9 @@
 #include "autopilot/estimator/estimator.hpp"
 #include "autopilot/estimator/fix_trust.hpp"
 #include "autopilot/estimator/gate.hpp"
+#include "autopilot/estimator/gnss_observation.hpp"
 #include "autopilot/estimator/heading_trust.hpp"
+#include "autopilot/estimator/vibration_watch.hpp"
 
 namespace ironbird::autopilot {
 
@@ -31,28 +32,6 @@ struct BaroModel {
     visit("density", self.density, "kg/m^3", "of the air at the origin");
     visit("density_gradient", self.density_gradient, "1/m", "relative change of density with height");
     visit("gravity", self.gravity, "m/s^2", "acceleration of gravity");
-  }
-};
-
-/// A satellite fix in N, with the state that it is to be compared with.
-struct GnssObservation {
-  Vector3 p_N = Vector3::Zero();
-  Vector3 v_N = Vector3::Zero();
-  Vector3 dp_N = Vector3::Zero();
-  Vector3 dv_N = Vector3::Zero();
-  Vector3 variance_p = Vector3::Ones();
-  Vector3 variance_v = Vector3::Ones();
-  Vector3 gate_variance_p = Vector3::Ones();
-
-  template <class Self, class Visit>
-  static void describe(Self& self, Visit&& visit) {
-    visit("p_N", self.p_N, "m", "measured position, carried to the present");
-    visit("v_N", self.v_N, "m/s", "measured velocity, carried to the present");
-    visit("dp_N", self.dp_N, "m", "measured less predicted position, at the time of the fix");
-    visit("dv_N", self.dv_N, "m/s", "measured less predicted velocity, at the time of the fix");
-    visit("variance_p", self.variance_p, "m^2", "R of the position");
-    visit("variance_v", self.variance_v, "m^2/s^2", "R of the velocity");
-    visit("gate_variance_p", self.gate_variance_p, "m^2", "what the gate takes for R of the position");
   }
 };
 
@@ -121,8 +100,8 @@ class AidedEstimator : public Estimator {
   /// @return false: the filter is to believe them
   bool blame_receiver(const Vector3& by_N, Time now);
 
-  /// How much the airframe shakes, root mean square of the specific force's fast part over a second, m/s^2.
-  double vibration() const { return std::sqrt(vibration_square_); }
+  /// How much the airframe shakes, m/s^2.
+  double vibration() const { return vibration_.rms(); }
 
   const BaroModel& baro_model() const { return baro_; }
   Gate& position_gate() { return gates_.position; }
@@ -154,7 +133,6 @@ class AidedEstimator : public Estimator {
   void begin(const StartState& start, Time now);
   void rebuild_baro_model();
   void advance(const ImuSample& imu, double dt);
-  void feel_vibration(const Vector3& f_B, double dt);
   void fuse(const SensorFrame& frame);
   void fuse_baro(const BaroSample& baro, Time now);
   void fuse_gnss(const GnssSample& gnss, Time now);
@@ -187,8 +165,7 @@ class AidedEstimator : public Estimator {
   Vector3 accelerometer_offset_B_ = Vector3::Zero();
   Vector3 w_filtered_B_ = Vector3::Zero();
   bool rates_known_ = false;
-  Vector3 f_slow_B_ = Vector3::Zero();
-  double vibration_square_ = 0.0;  // (m/s^2)^2
+  VibrationWatch vibration_;
   DelayLine delay_line_;
   Gates gates_;
   Heard heard_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "autopilot/math/angles.hpp"
 #include "autopilot/math/euler_zyx.hpp"
@@ -36,6 +37,18 @@ Vector3 seen_from(const autopilot::LocalOrigin& other, const Vector3& p_N,
   return autopilot::local_from_geodetic(autopilot::geodetic_from_local(p_N, origin), other);
 }
 
+Comparison::Comparison(const RecordedEstimate& recorded, Interval window)
+    : recorded_(recorded), window_(window) {
+  for (const RecordedAttitude& attitude : recorded.attitudes)
+    wanted_attitudes_ += counts(attitude.stamp) ? 1 : 0;
+  for (const RecordedPosition& position : recorded.positions) {
+    if (!counts(position.stamp)) continue;
+    wanted_positions_ += position.position_known ? 1 : 0;
+    wanted_heights_ += position.height_known ? 1 : 0;
+    wanted_velocities_ += position.velocity_known ? 1 : 0;
+  }
+}
+
 void Comparison::Sum::add(double value) {
   if (!std::isfinite(value)) return;
   ++count;
@@ -61,7 +74,6 @@ const std::vector<EstimateDifference>& Comparison::observe(const StateEstimate& 
   const auto pass = [&](const auto& series, std::size_t& next) {
     for (; next < series.size() && series[next].stamp <= now; ++next) {
       const Time when = series[next].stamp;
-      if (counts(when)) ++wanted_;
       const bool spanned = usable && before_ && before_->stamp <= when;
       if (!spanned) continue;
       const double length = static_cast<double>((now - before_->stamp).count());
@@ -85,7 +97,6 @@ void Comparison::compare(const RecordedAttitude& recorded, double share, const S
   }
   differences_.push_back(difference);
   if (!counts(recorded.stamp)) return;
-  ++compared_;
   roll_.add(difference.theta.x());
   pitch_.add(difference.theta.y());
   heading_.add(difference.theta.z());
@@ -101,7 +112,6 @@ void Comparison::compare(const RecordedPosition& recorded, double share, const S
     difference.v_N = between(before_->v_NB_N(), ours.v_NB_N(), share) - recorded.v_NB_N;
   differences_.push_back(difference);
   if (!counts(recorded.stamp)) return;
-  ++compared_;
   north_.add(difference.p_N.x());
   east_.add(difference.p_N.y());
   horizontal_.add(difference.p_N.head<2>().norm());
@@ -121,10 +131,18 @@ std::vector<Metric> Comparison::results() const {
       {"roll_difference_rms_deg", kDegreesPerRadian * roll_.rms(), "deg", than + "roll"},
       {"pitch_difference_rms_deg", kDegreesPerRadian * pitch_.rms(), "deg", than + "pitch"},
       {"heading_difference_rms_deg", kDegreesPerRadian * heading_.rms(), "deg", than + "heading"}};
-  const double share = wanted_ == 0 ? std::numeric_limits<double>::quiet_NaN()
-                                    : static_cast<double>(compared_) / static_cast<double>(wanted_);
+  double share = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [sum, wanted] :
+       {std::pair(&roll_, wanted_attitudes_), std::pair(&horizontal_, wanted_positions_),
+        std::pair(&down_, wanted_heights_), std::pair(&velocity_, wanted_velocities_)}) {
+    if (wanted == 0) continue;
+    const double compared = static_cast<double>(sum->count) / static_cast<double>(wanted);
+    share = std::isnan(share) ? compared : std::min(share, compared);
+  }
   all.push_back({"compared_share", share, "1",
-                 "of what " + whose + " recorded in the window, how much could be compared"});
+                 "of what " + whose +
+                     " believed in the window, how much could be compared; of attitude, position, "
+                     "height and velocity the least"});
   return all;
 }
 

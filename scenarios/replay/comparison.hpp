@@ -41,7 +41,7 @@ class Comparison {
  public:
   /// @param recorded  outlives this
   /// @param window    what counts
-  Comparison(const RecordedEstimate& recorded, Interval window) : recorded_(recorded), window_(window) {}
+  Comparison(const RecordedEstimate& recorded, Interval window);
 
   /// To be called with each estimate, in order of time. @return the differences that it completes
   const std::vector<EstimateDifference>& observe(const autopilot::StateEstimate& ours);
@@ -69,8 +69,11 @@ class Comparison {
   std::optional<autopilot::StateEstimate> before_;
   std::size_t next_attitude_ = 0;
   std::size_t next_position_ = 0;
-  std::size_t wanted_ = 0;    // recorded values in the window
-  std::size_t compared_ = 0;  // of them, those that ours had a number for
+  // Recorded values in the window that were believed.
+  std::size_t wanted_attitudes_ = 0;
+  std::size_t wanted_positions_ = 0;
+  std::size_t wanted_heights_ = 0;
+  std::size_t wanted_velocities_ = 0;
   Sum north_;
   Sum east_;
   Sum horizontal_;

@@ -87,7 +87,8 @@ const WmmEdition& edition_for(double year) {
 
 MagneticField magnetic_field(double latitude, double longitude, double altitude, double year) {
   const WmmEdition& edition = edition_for(year);
-  const double age = year - edition.epoch;
+  constexpr double kFarthest = 10.0;  // years: linear change beyond is no change that there was
+  const double age = std::clamp(year - edition.epoch, -kFarthest, kFarthest);
   // At a pole east and west are nowhere; close by they are good enough.
   constexpr double kPole = 1e-9;
   constexpr double kQuarter = std::numbers::pi / 2.0;
@@ -119,8 +120,12 @@ MagneticField magnetic_field(double latitude, double longitude, double altitude,
   field.inclination = std::atan2(field.b_N.z(), std::hypot(field.b_N.x(), field.b_N.y()));
   field.strength = field.b_N.norm();
   field.edition = static_cast<int>(edition.epoch);
-  field.current = age >= 0.0 && age < kYears;
+  field.current = year >= edition.epoch && year < edition.epoch + kYears;
   return field;
+}
+
+double newest_epoch() {
+  return kWmmEditions.back().epoch;
 }
 
 double decimal_year(double unix_time) {

@@ -26,7 +26,8 @@ struct MagneticField {
   }
 };
 
-/// The field by the World Magnetic Model, of the edition that is meant for the time, or the nearest.
+/// The field by the World Magnetic Model, of the edition that is meant for the time, or the nearest; a time
+/// far from all editions is taken for the nearest that is within ten years.
 ///
 /// Chulliat et al., The US/UK World Magnetic Model for 2025-2030, section 1.2 (equations 3 to 19): spherical
 /// harmonics of degree 12 of the main field and its change. It knows nothing of iron in the ground: typically
@@ -35,6 +36,9 @@ struct MagneticField {
 /// @param altitude  above the ellipsoid, m
 /// @param year  decimal: 2024.5
 MagneticField magnetic_field(double latitude, double longitude, double altitude, double year);
+
+/// The decimal year from which on the newest edition is meant.
+double newest_epoch();
 
 /// The decimal year of a time. @param unix_time  s since 1970, UTC
 double decimal_year(double unix_time);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "scenarios/replay/magnetic_field.hpp"
 #include "scenarios/replay/recorded_flight.hpp"
 #include "scenarios/replay/ulog_file.hpp"
 
@@ -38,10 +40,15 @@ struct MagCandidate {
 struct Px4Flight {
   RecordedFlight flight;
   std::vector<MagCandidate> mags;   ///< by instance
-  int mag = -1;                     ///< the one that was taken; -1: there is none
+  std::optional<int> mag;           ///< the one that was taken; none: there is none
   double gnss_delay = 0.0;          ///< s
   std::optional<double> unix_time;  ///< s, UTC, of the first fix that tells it
-  bool simulated = false;           ///< no vehicle flew
+  std::optional<hil_bridge::rosflight::RosflightGnss> first_fix;  ///< that is of use
+  bool simulated = false;                                         ///< no vehicle flew
+
+  /// The earth's field at the first fix, which there must be, at its date; where no date is told, of the
+  /// newest model.
+  MagneticField field_there() const;
 };
 
 /// Takes sensors and estimates of PX4 1.8 to 1.15 out of a log: integer and double latitudes, both layouts of

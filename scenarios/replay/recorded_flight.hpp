@@ -81,7 +81,6 @@ struct RecordedFlight {
   std::vector<RecordedEstimate> estimates;    ///< the first is compared with
   std::vector<Interval> airborne;             ///< as the recorder's own land detector told
   hil_bridge::Time end{};                     ///< of the last sample of the IMU
-  std::optional<double> declination;          ///< rad, as the recorder used it at last; may be stale
   std::vector<std::string> remarks;           ///< what is missing or odd, a line each
 };
 

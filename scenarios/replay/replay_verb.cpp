@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +48,7 @@ struct ReplayArguments {
   std::string window;
   double gnss_delay = -1.0;  // s
   std::vector<std::string> bounds;
+  std::vector<std::string> compare;
   std::string out = "out";
   bool no_log = false;
   bool no_report = false;
@@ -63,7 +66,8 @@ std::optional<Interval> window_of(const std::string& text) {
   const std::size_t colon = text.find(':');
   const auto begin = number_of(text.substr(0, colon));
   const auto end = colon == std::string::npos ? std::nullopt : number_of(text.substr(colon + 1));
-  if (!begin || !end || *begin >= *end)
+  constexpr double kMost = 1e6;  // s
+  if (!begin || !end || *begin >= *end || std::abs(*begin) > kMost || std::abs(*end) > kMost)
     throw ConfigError("--window " + text + ": must be BEGIN:END in seconds, for example 4.8:76.1");
   return Interval{from_seconds(*begin), from_seconds(*end)};
 }
@@ -74,15 +78,6 @@ struct Declination {
   std::string source;
 };
 
-/// Where and when the flight began, for the field of the earth.
-std::optional<hil_bridge::rosflight::RosflightGnss> first_fix(const RecordedFlight& flight) {
-  for (const hil_bridge::Arrival& arrival : flight.messages) {
-    const auto* fix = std::get_if<hil_bridge::rosflight::RosflightGnss>(&arrival.message);
-    if (fix != nullptr && autopilot::is_usable(static_cast<autopilot::GnssFix>(fix->fix_type))) return *fix;
-  }
-  return std::nullopt;
-}
-
 Declination declination_of(const ReplayArguments& arguments, const Px4Flight& px4,
                            std::vector<std::string>& remarks) {
   if (!arguments.declination.empty()) {
@@ -92,84 +87,193 @@ Declination declination_of(const ReplayArguments& arguments, const Px4Flight& px
                         ": must be an angle in degrees, east positive");
     return {*named / kDegrees, "as named"};
   }
-  const auto fix = first_fix(px4.flight);
-  if (!fix) return {0.0, "0, for there is no place to ask for"};
+  if (!px4.first_fix) return {0.0, "0, for there is no place to ask for"};
   if (!px4.unix_time)
     remarks.emplace_back("its fixes do not tell the date: the declination is that of the newest model");
-  constexpr double kNewest = 2025.0;
-  const double year = px4.unix_time ? decimal_year(*px4.unix_time) : kNewest;
-  const MagneticField field =
-      magnetic_field(fix->lat / kDegrees, fix->lon / kDegrees, static_cast<double>(fix->height), year);
+  const MagneticField field = px4.field_there();
+  const std::string edition = std::to_string(field.edition);
   if (!field.current)
     remarks.push_back(
-        "no World Magnetic Model that is known is meant for its date: the declination is that of " +
-        std::to_string(field.edition));
-  return {field.declination, "World Magnetic Model " + std::to_string(field.edition)};
+        "no World Magnetic Model that is known is meant for its date: the declination is that of " + edition);
+  return {field.declination, "World Magnetic Model " + edition + ", meant for the five years from then"};
 }
 
-LoadedScenario load(const ReplayArguments& arguments, const Declination& declination,
+/// One of the estimators, or sets of parameters, that a flight is fed to.
+struct Variant {
+  std::string name;                   ///< empty: there is one only
+  std::filesystem::path scenario;     ///< empty: the usual one
+  std::vector<std::string> settings;  ///< on top of those for all
+};
+
+/// What `--compare` names: a scenario, a setting, or a kind of estimator.
+Variant variant_of(const std::string& word) {
+  Variant variant{word, {}, {}};
+  if (std::filesystem::path(word).extension() == ".toml") {
+    variant.name = std::filesystem::path(word).stem().string();
+    variant.scenario = word;
+  } else {
+    variant.settings.push_back(word.find('=') != std::string::npos ? word
+                                                                   : "autopilot.estimator.kind=" + word);
+    std::replace(variant.name.begin(), variant.name.end(), '/', '_');
+  }
+  return variant;
+}
+
+std::vector<Variant> variants_of(const ReplayArguments& arguments) {
+  if (arguments.compare.empty()) return {Variant{{}, {}, {}}};
+  std::vector<Variant> variants;
+  std::set<std::string> names;
+  for (const std::string& word : arguments.compare) {
+    variants.push_back(variant_of(word));
+    if (!names.insert(variants.back().name).second)
+      throw ConfigError("--compare " + word + ": is named twice");
+  }
+  if (variants.size() < 2)
+    throw ConfigError("--compare: must name two or more, for example --compare ekf error_state");
+  return variants;
+}
+
+LoadedScenario load(const ReplayArguments& arguments, const Variant& variant, const Declination& declination,
                     const autopilot::Modules& modules) {
+  std::vector<std::string> wanted = arguments.settings;
+  wanted.insert(wanted.end(), variant.settings.begin(), variant.settings.end());
   std::vector<std::pair<std::string, std::string>> settings;
   if (!arguments.vehicle.empty()) settings.emplace_back("vehicle", arguments.vehicle);
   settings.emplace_back("environment.magnetic_field.declination",
                         std::to_string(declination.angle * kDegrees) + " deg");
-  for (auto& setting : split_settings(arguments.settings)) settings.push_back(std::move(setting));
-  std::filesystem::path file = arguments.scenario;
+  for (auto& setting : split_settings(wanted)) settings.push_back(std::move(setting));
+  std::filesystem::path file = variant.scenario;
+  if (file.empty()) file = arguments.scenario;
   if (file.empty()) file = find_named(kUsualScenario, search_folders(kUsualScenario));
   return load_scenario(file, {settings, std::nullopt}, modules);
 }
 
-void tell(const Px4Flight& px4, const Declination& declination, const ReplayResult& result) {
+void tell_flight(const Px4Flight& px4, const Declination& declination, const Interval& window) {
   std::fprintf(stderr, "%s, %.1f s of IMU samples\n", px4.flight.what.c_str(), to_seconds(px4.flight.end));
   for (const MagCandidate& mag : px4.mags) {
     std::fprintf(stderr, "  magnetometer %d%s: %.1f uT, spread %.1f %%, off the earth's field by %.1f %%\n",
-                 mag.instance, mag.instance == px4.mag ? " (taken)" : "", 1e6 * mag.strength,
+                 mag.instance, px4.mag == mag.instance ? " (taken)" : "", 1e6 * mag.strength,
                  1e2 * mag.spread, 1e2 * mag.misfit);
   }
   std::fprintf(stderr,
                "  declination %+.2f deg (%s); fixes %.0f ms old on arrival; compared from %.1f to %.1f s\n",
                declination.angle * kDegrees, declination.source.c_str(), 1e3 * px4.gnss_delay,
-               to_seconds(result.window.begin), to_seconds(result.window.end));
-  for (const Metric& metric : result.metrics)
-    std::fprintf(stderr, "  %-30s %8.3f %s\n", metric.name.c_str(), metric.value, metric.unit.c_str());
+               to_seconds(window.begin), to_seconds(window.end));
+}
+
+/// What came of one variant.
+struct Replayed {
+  Variant variant;
+  std::filesystem::path folder;
+  ReplayResult result;
+  Verdict verdict;
+};
+
+/// The figures of all variants beside each other.
+void tell_figures(const std::vector<Replayed>& all) {
+  if (all.size() > 1) {
+    std::fprintf(stderr, "  %-30s", "");
+    for (const Replayed& one : all) std::fprintf(stderr, " %16s", one.variant.name.c_str());
+    std::fputs("\n", stderr);
+  }
+  for (std::size_t k = 0; k < all.front().result.metrics.size(); ++k) {
+    const Metric& metric = all.front().result.metrics[k];
+    std::fprintf(stderr, "  %-30s", metric.name.c_str());
+    for (const Replayed& one : all)
+      std::fprintf(stderr, all.size() > 1 ? " %16.3f" : " %8.3f", one.result.metrics[k].value);
+    std::fprintf(stderr, " %s\n", metric.unit.c_str());
+  }
+}
+
+/// Everything that the variants of one flight share.
+class ReplayWork {
+ public:
+  ReplayWork(const ReplayArguments& arguments, const autopilot::Modules& modules)
+      : arguments_(arguments),
+        modules_(modules),
+        window_(window_of(arguments.window)),
+        name_(std::filesystem::path(arguments.flight).stem().string()),
+        folder_(std::filesystem::path(arguments.out) / name_) {
+    for (const std::string& bound : arguments.bounds) bounds_.push_back(parse_replay_bound(bound));
+    Px4Choice choice;
+    if (arguments.mag != kUnnamed) choice.mag = arguments.mag;
+    if (arguments.gnss_delay >= 0.0) choice.gnss_delay = arguments.gnss_delay;
+    px4_ = read_px4_flight(UlogFile::read(arguments.flight), arguments.flight, choice);
+    declination_ = declination_of(arguments, px4_, px4_.flight.remarks);
+  }
+
+  Replayed run(const Variant& variant, RunListener& listener) const {
+    const LoadedScenario loaded = load(arguments_, variant, declination_, modules_);
+    const std::string name = variant.name.empty() ? name_ : name_ + ", " + variant.name;
+    Replayed done{variant, variant.name.empty() ? folder_ : folder_ / variant.name, {}, {}};
+    const RunFolder held(done.folder);
+    ReplayOptions options;
+    options.window = window_;
+    if (!arguments_.no_log) options.log_file = done.folder / "flight.mcap";
+    const double length = to_seconds(px4_.flight.end);
+    options.on_progress = [&](Time now) {
+      listener.progress({name, to_seconds(now), length, "replayed"});
+      return !interrupt_requested();
+    };
+    done.result = Replay(px4_.flight, loaded, modules_, options).run();
+    done.verdict = judge_replay(done.result,
+                                {name, loaded.scenario.title, loaded.scenario.seed, loaded.digest}, bounds_);
+    write_verdict(done.verdict, done.folder / "verdict.json");
+    listener.judged(done.verdict);
+    return done;
+  }
+
+  void report(const std::vector<Replayed>& all) const {
+    std::vector<ReportRun> runs;
+    for (const Replayed& one : all) {
+      runs.push_back(ReportRun::read(one.variant.name.empty() ? name_ : one.variant.name,
+                                     one.folder / "flight.mcap", one.folder / "verdict.json"));
+    }
+    write_report(runs, folder_ / "report.html");
+  }
+
+  void tell(const std::vector<Replayed>& all) const {
+    tell_flight(px4_, declination_, all.front().result.window);
+    tell_figures(all);
+  }
+
+ private:
+  const ReplayArguments& arguments_;
+  const autopilot::Modules& modules_;
+  std::optional<Interval> window_;
+  std::string name_;
+  std::filesystem::path folder_;
+  std::vector<ReplayBound> bounds_;
+  Px4Flight px4_;
+  Declination declination_;
+};
+
+/// A failure outweighs what is inconclusive.
+int exit_code_of_all(const std::vector<Replayed>& all) {
+  int code = kExitPass;
+  for (const Replayed& one : all) {
+    if (one.result.interrupted) return kExitInterrupted;
+    const int its = exit_code(one.verdict.outcome);
+    if (code == kExitPass || its == kExitFail) code = its;
+  }
+  return code;
 }
 
 int replay(const ReplayArguments& arguments, const autopilot::Modules& modules) {
   note_interrupts();
-  std::vector<ReplayBound> bounds;
-  for (const std::string& bound : arguments.bounds) bounds.push_back(parse_replay_bound(bound));
-  ReplayOptions options;
-  options.window = window_of(arguments.window);
-  Px4Choice choice;
-  if (arguments.mag != kUnnamed) choice.mag = arguments.mag;
-  if (arguments.gnss_delay >= 0.0) choice.gnss_delay = arguments.gnss_delay;
-  Px4Flight px4 = read_px4_flight(UlogFile::read(arguments.flight), arguments.flight, choice);
-  const Declination declination = declination_of(arguments, px4, px4.flight.remarks);
-  const LoadedScenario loaded = load(arguments, declination, modules);
-  const std::string name = std::filesystem::path(arguments.flight).stem().string();
-  const std::filesystem::path folder = std::filesystem::path(arguments.out) / name;
-  const RunFolder held(folder);
-  if (!arguments.no_log) options.log_file = folder / "flight.mcap";
+  const std::vector<Variant> variants = variants_of(arguments);
+  const ReplayWork work(arguments, modules);
   TerminalListener listener(Terminal::of_standard_error());
-  const double length = to_seconds(px4.flight.end);
-  options.on_progress = [&](Time now) {
-    listener.progress({name, to_seconds(now), length, "replayed"});
-    return !interrupt_requested();
-  };
-  Replay work(px4.flight, loaded, modules, options);
-  const ReplayResult result = work.run();
-  const Verdict verdict =
-      judge_replay(result, {name, loaded.scenario.title, loaded.scenario.seed, loaded.digest}, bounds);
-  write_verdict(verdict, folder / "verdict.json");
-  listener.judged(verdict);
-  tell(px4, declination, result);
-  if (!arguments.no_log && !arguments.no_report) {
-    std::vector<ReportRun> runs;
-    runs.push_back(ReportRun::read(name, options.log_file, folder / "verdict.json"));
-    write_report(runs, folder / "report.html");
+  std::vector<Replayed> all;
+  for (const Variant& variant : variants) all.push_back(work.run(variant, listener));
+  work.tell(all);
+  if (!arguments.no_log && !arguments.no_report) work.report(all);
+  if (arguments.json) {
+    std::string text;
+    for (const Replayed& one : all) text += (text.empty() ? "" : ",\n") + to_json(one.verdict);
+    std::fputs((all.size() > 1 ? "[" + text + "]\n" : text).c_str(), stdout);
   }
-  if (arguments.json) std::fputs(to_json(verdict).c_str(), stdout);
-  return result.interrupted ? static_cast<int>(kExitInterrupted) : exit_code(verdict.outcome);
+  return exit_code_of_all(all);
 }
 
 }  // namespace
@@ -201,6 +305,10 @@ Verb replay_verb() {
         options.option("--at-most", arguments->bounds, "a figure that must not be greater; may be repeated")
             .one_word_each()
             .called("NAME=VALUE");
+        options
+            .option("--compare", arguments->compare,
+                    "two or more side by side: kinds of estimator, settings PATH=VALUE, or scenarios")
+            .called("A B");
         options.option("--out", arguments->out, "folder for the results").shows_default();
         options.flag("--no-log", arguments->no_log, "write no log and no report, only the verdict");
         options.flag("--no-report", arguments->no_report, "write no report");
@@ -209,6 +317,7 @@ Verb replay_verb() {
             "Examples:\n"
             "  ironbird replay flight.ulg\n"
             "  ironbird replay flight.ulg --set autopilot.estimator.kind=error_state\n"
+            "  ironbird replay flight.ulg --compare ekf error_state\n"
             "  ironbird replay flight.ulg --mag 1 --window 5:60 --at-most horizontal_difference_rms_m=0.25");
         return [arguments](const autopilot::Modules& modules) { return replay(*arguments, modules); };
       }};

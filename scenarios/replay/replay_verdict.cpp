@@ -60,6 +60,27 @@ CheckResult check_of_health(const ReplayResult& result) {
   return check;
 }
 
+/// A figure of which little could be compared says little.
+CheckResult check_of_share(const ReplayResult& result) {
+  constexpr double kEnough = 0.9;
+  CheckResult check;
+  check.name = "nine tenths of what was recorded in the window could be compared";
+  check.kind = "compared";
+  check.time = kNoTime;
+  const auto share = std::find_if(result.metrics.begin(), result.metrics.end(),
+                                  [](const Metric& metric) { return metric.name == "compared_share"; });
+  if (share == result.metrics.end() || !std::isfinite(share->value)) {
+    check.margin = kNoTime;
+    check.explanation = "nothing was recorded there to compare with";
+    return check;
+  }
+  check.unit = "1";
+  check.margin = share->value - kEnough;
+  check.outcome = check.margin >= 0.0 ? Outcome::kPass : Outcome::kInconclusive;
+  check.explanation = "of attitude, position, height and velocity the least was " + figure(share->value);
+  return check;
+}
+
 }  // namespace
 
 ReplayBound parse_replay_bound(const std::string& text) {
@@ -86,6 +107,7 @@ Verdict judge_replay(const ReplayResult& result, const RunIdentity& run,
   verdict.metrics = result.metrics;
   verdict.warnings = result.remarks;
   verdict.checks.push_back(check_of_health(result));
+  verdict.checks.push_back(check_of_share(result));
   for (const ReplayBound& bound : bounds) verdict.checks.push_back(check_of(bound, result));
   RunFlaws flaws;
   if (result.interrupted) flaws.broken_promises.emplace_back("the replay was interrupted");

@@ -85,9 +85,12 @@ const UlogLayout::Field* UlogLayout::find(std::string_view field) const {
 }
 
 void UlogLayouts::add(UlogFormat format) {
-  without_.clear();
   std::string name = format.name;
   formats_.try_emplace(std::move(name), std::move(format));
+}
+
+void UlogLayouts::look_again() {
+  without_.clear();
 }
 
 const UlogLayout* UlogLayouts::find(std::string_view name) {

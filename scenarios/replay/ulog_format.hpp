@@ -101,9 +101,11 @@ class UlogLayouts {
   bool has(std::string_view name) const { return formats_.contains(name); }
 
   /// The layout of a format. @return null: there is none, it has no fields, names a type that is none,
-  /// goes round in a circle, or is longer than a message can be. Asked again after more formats came, it is
-  /// looked for anew
+  /// goes round in a circle, or is longer than a message can be. What was not found is not
+  /// sought anew before look_again: looking costs as much as the formats are long
   const UlogLayout* find(std::string_view name);
+  /// More formats have come.
+  void look_again();
 
  private:
   static constexpr std::size_t kLongest = 65535;  // bytes: what the size of a message can say

@@ -7,6 +7,7 @@
 
 #include "scenarios/config/one_line.hpp"
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/replay/ulog_values.hpp"
 
 namespace ironbird::scenarios {
 
@@ -21,72 +22,9 @@ constexpr int kKnownVersion = 1;
 constexpr std::uint8_t kAppendedData = 1;
 constexpr std::size_t kFlagBytes = 40;  // of the flags that are known
 constexpr int kLikelyInARow = 4;
+constexpr int kLeastBeforeACut = 2;
+constexpr std::size_t kUsualText = 1024;  // bytes: PX4 writes texts of 127
 constexpr std::string_view kTypes = "BFIMPQARDLCSO";
-
-template <class T>
-T little_endian(Bytes bytes, std::size_t offset) {
-  T value{};
-  std::memcpy(&value, bytes.data() + offset, sizeof value);
-  return value;
-}
-
-std::string_view text_of(Bytes bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-/// `type name` and the bytes of the value behind it.
-struct Keyed {
-  UlogFormatField key;
-  Bytes value;
-};
-
-std::optional<Keyed> keyed(Bytes content) {
-  if (content.empty()) return std::nullopt;
-  const std::size_t length = content[0];
-  if (1 + length > content.size()) return std::nullopt;
-  const auto key = parse_ulog_field(text_of(content.subspan(1, length)));
-  if (!key) return std::nullopt;
-  return Keyed{*key, content.subspan(1 + length)};
-}
-
-template <class T>
-std::string number_text(Bytes value) {
-  return std::to_string(little_endian<T>(value, 0));
-}
-
-/// The value as text, whatever its type.
-std::optional<std::string> value_text(const Keyed& found) {
-  if (found.key.type == "char") return std::string(text_of(found.value));
-  for (const auto& [type, name] : enumerators(UlogType{})) {
-    if (name != found.key.type) continue;
-    if (found.value.size() < size_of(type)) return std::nullopt;
-    switch (type) {
-      case UlogType::kInt8:
-        return number_text<std::int8_t>(found.value);
-      case UlogType::kUint8:
-      case UlogType::kBool:
-      case UlogType::kChar:
-        return number_text<std::uint8_t>(found.value);
-      case UlogType::kInt16:
-        return number_text<std::int16_t>(found.value);
-      case UlogType::kUint16:
-        return number_text<std::uint16_t>(found.value);
-      case UlogType::kInt32:
-        return number_text<std::int32_t>(found.value);
-      case UlogType::kUint32:
-        return number_text<std::uint32_t>(found.value);
-      case UlogType::kInt64:
-        return number_text<std::int64_t>(found.value);
-      case UlogType::kUint64:
-        return number_text<std::uint64_t>(found.value);
-      case UlogType::kFloat:
-        return number_text<float>(found.value);
-      case UlogType::kDouble:
-        return number_text<double>(found.value);
-    }
-  }
-  return std::nullopt;
-}
 
 /// Not the whole text is looked at: whoever seeks a message asks this at every byte.
 bool begins_like_a_format(std::string_view text) {
@@ -96,13 +34,6 @@ bool begins_like_a_format(std::string_view text) {
   return colon != std::string_view::npos && colon > 0 &&
          std::all_of(begin.begin(), begin.begin() + static_cast<std::ptrdiff_t>(colon),
                      [](char c) { return c > ' ' && c < 0x7F; });
-}
-
-std::optional<UlogNumber> parameter_of(const Keyed& found) {
-  if (found.value.size() != sizeof(std::int32_t)) return std::nullopt;
-  if (found.key.type == "int32_t") return UlogNumber(little_endian<std::int32_t>(found.value, 0));
-  if (found.key.type == "float") return UlogNumber(little_endian<float>(found.value, 0));
-  return std::nullopt;
 }
 
 }  // namespace
@@ -117,7 +48,7 @@ UlogFile UlogReader::read() {
   const std::size_t end = appended_.empty() ? file_.bytes_.size() : appended_.front().first;
   read_section(kFileHeader, end, !appended_.empty());
   for (const auto& [from, to] : appended_) read_section(from, to, false);
-  sort_records();
+  find_late_formats();
   return std::move(file_);
 }
 
@@ -134,7 +65,7 @@ void UlogReader::read_header() {
   }
   file_.version_ = bytes[kMagic.size()];
   if (file_.version_ > kKnownVersion) file_.damage_.newer_version = file_.version_;
-  file_.start_ = little_endian<std::uint64_t>(bytes, kMagic.size() + 1);
+  file_.start_ = ulog_value<std::uint64_t>(bytes, kMagic.size() + 1);
 }
 
 void UlogReader::read_flags() {
@@ -154,7 +85,7 @@ void UlogReader::read_flags() {
   if ((incompatible[0] & kAppendedData) == 0) return;
   std::vector<std::size_t> begins;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto begin = little_endian<std::uint64_t>(first->content, 16 + 8 * k);
+    const auto begin = ulog_value<std::uint64_t>(first->content, 16 + 8 * k);
     const bool goes_on = begin >= first->end() && (begins.empty() || begin > begins.back());
     if (begin == 0) continue;
     if (begin <= size && goes_on) {
@@ -173,7 +104,7 @@ void UlogReader::read_section(std::size_t begin, std::size_t end, bool is_cut) {
   while (place < end) {
     const std::optional<Message> message = message_at(place, end);
     const bool known = message && kTypes.find(message->type) != std::string_view::npos;
-    if (known && take(*message)) {
+    if (known && is_believed(*message, end) && take(*message)) {
       place = message->end();
       continue;
     }
@@ -200,7 +131,7 @@ void UlogReader::count_odd(const Message& message, bool known) {
     ++damage.unknown_messages;
   } else if (message.type != 'D' || message.content.size() < sizeof(std::uint16_t)) {
     ++damage.faulty_messages;
-  } else if (homes_.contains(little_endian<std::uint16_t>(message.content, 0))) {
+  } else if (homes_.contains(ulog_value<std::uint16_t>(message.content, 0))) {
     ++damage.misfit_records;
   } else {
     ++damage.homeless_records;
@@ -210,7 +141,7 @@ void UlogReader::count_odd(const Message& message, bool known) {
 std::optional<UlogReader::Message> UlogReader::message_at(std::size_t place, std::size_t end) const {
   const Bytes bytes(file_.bytes_);
   if (end - place < kHeader) return std::nullopt;
-  const std::size_t size = little_endian<std::uint16_t>(bytes, place);
+  const std::size_t size = ulog_value<std::uint16_t>(bytes, place);
   if (size > end - place - kHeader) return std::nullopt;
   return Message{place, static_cast<char>(bytes[place + 2]), bytes.subspan(place + kHeader, size)};
 }
@@ -222,18 +153,24 @@ bool UlogReader::is_likely(const Message& message) const {
       return content.size() == kSync.size() && std::equal(kSync.begin(), kSync.end(), content.begin());
     case 'D': {
       if (content.size() < sizeof(std::uint16_t)) return false;
-      return homes_.contains(little_endian<std::uint16_t>(content, 0));
+      const auto home = homes_.find(ulog_value<std::uint16_t>(content, 0));
+      if (home == homes_.end()) return false;
+      const UlogLayout* const layout = file_.series_[home->second].layout_;
+      return layout == nullptr || layout->takes(content.size() - sizeof(std::uint16_t));
     }
+    case 'B':
+      return content.size() >= kFlagBytes;
     case 'O':
+    case 'R':
       return content.size() == sizeof(std::uint16_t);
     case 'F':
-      return begins_like_a_format(text_of(content));
+      return begins_like_a_format(ulog_text(content));
     case 'I':
     case 'P':
-      return keyed(content).has_value();
+      return ulog_keyed(content).has_value();
     case 'M':
     case 'Q':
-      return !content.empty() && keyed(content.subspan(1)).has_value();
+      return !content.empty() && ulog_keyed(content.subspan(1)).has_value();
     case 'A':
       return content.size() > 3 && content[3] >= 0x20 && content[3] < 0x7F;
     case 'L':
@@ -248,7 +185,9 @@ bool UlogReader::is_likely(const Message& message) const {
 bool UlogReader::reads_on(std::size_t place, std::size_t end) const {
   for (int k = 0; k < kLikelyInARow && place < end; ++k) {
     const std::optional<Message> message = message_at(place, end);
-    if (!message || !is_likely(*message)) return false;
+    // The last one may be cut.
+    if (!message) return k >= kLeastBeforeACut;
+    if (!is_likely(*message)) return false;
     if (message->type == 'S') return true;  // nothing else has its eight bytes
     place = message->end();
   }
@@ -260,12 +199,21 @@ std::size_t UlogReader::next_sound(std::size_t place, std::size_t end) const {
   return place + kHeader <= end ? place : end;
 }
 
+bool UlogReader::is_believed(const Message& message, std::size_t end) const {
+  if (!is_likely(message)) return false;
+  // A false size makes any text swallow what stands behind it.
+  const bool is_short = message.content.size() <= kUsualText || message.type == 'D' || message.type == 'F';
+  return is_short || message.end() == end || reads_on(message.end(), end);
+}
+
 bool UlogReader::take(const Message& message) {
   const Bytes content = message.content;
   if (message.type == 'A' || message.type == 'L' || message.type == 'C') flying_ = true;
   switch (message.type) {
     case 'B':
-      return true;  // read_flags has read it
+    case 'R':
+    case 'S':
+      return true;  // read_flags has read the first
     case 'F':
       return take_format(content);
     case 'I':
@@ -278,16 +226,12 @@ bool UlogReader::take(const Message& message) {
       return take_default(content);
     case 'A':
       return take_subscription(content);
-    case 'R':
-      return content.size() == sizeof(std::uint16_t);
     case 'D':
       return take_record(content);
     case 'L':
       return take_text(content, false);
     case 'C':
       return take_text(content, true);
-    case 'S':
-      return is_likely(message);
     case 'O':
       return take_dropout(content);
     default:
@@ -296,23 +240,23 @@ bool UlogReader::take(const Message& message) {
 }
 
 bool UlogReader::take_format(Bytes content) {
-  std::optional<UlogFormat> format = parse_ulog_format(text_of(content));
+  std::optional<UlogFormat> format = parse_ulog_format(ulog_text(content));
   if (!format) return false;
   file_.layouts_.add(std::move(*format));
   return true;
 }
 
 bool UlogReader::take_information(Bytes content) {
-  const auto found = keyed(content);
-  const auto text = found ? value_text(*found) : std::nullopt;
+  const auto found = ulog_keyed(content);
+  const auto text = found ? ulog_value_text(*found) : std::nullopt;
   if (!text) return false;
   file_.information_.insert_or_assign(found->key.name, *text);
   return true;
 }
 
 bool UlogReader::take_list(Bytes content) {
-  const auto found = content.empty() ? std::nullopt : keyed(content.subspan(1));
-  const auto text = found ? value_text(*found) : std::nullopt;
+  const auto found = content.empty() ? std::nullopt : ulog_keyed(content.subspan(1));
+  const auto text = found ? ulog_value_text(*found) : std::nullopt;
   if (!text) return false;
   std::vector<std::string>& pieces = file_.lists_[found->key.name];
   const bool goes_on = content[0] != 0 && !pieces.empty();
@@ -325,8 +269,8 @@ bool UlogReader::take_list(Bytes content) {
 }
 
 bool UlogReader::take_parameter(const Message& message) {
-  const auto found = keyed(message.content);
-  const auto value = found ? parameter_of(*found) : std::nullopt;
+  const auto found = ulog_keyed(message.content);
+  const auto value = found ? ulog_parameter(*found) : std::nullopt;
   if (!value) return false;
   const bool first = file_.parameters_.emplace(found->key.name, *value).second;
   if (!first || flying_) file_.changes_.push_back({found->key.name, *value, message.begin});
@@ -334,8 +278,8 @@ bool UlogReader::take_parameter(const Message& message) {
 }
 
 bool UlogReader::take_default(Bytes content) {
-  const auto found = content.empty() ? std::nullopt : keyed(content.subspan(1));
-  const auto value = found ? parameter_of(*found) : std::nullopt;
+  const auto found = content.empty() ? std::nullopt : ulog_keyed(content.subspan(1));
+  const auto value = found ? ulog_parameter(*found) : std::nullopt;
   if (!value) return false;
   if ((content[0] & 1U) != 0) file_.firmware_defaults_.insert_or_assign(found->key.name, *value);
   if ((content[0] & 2U) != 0) file_.vehicle_defaults_.insert_or_assign(found->key.name, *value);
@@ -345,8 +289,8 @@ bool UlogReader::take_default(Bytes content) {
 bool UlogReader::take_subscription(Bytes content) {
   if (content.size() < 4) return false;
   const int instance = content[0];
-  const auto id = little_endian<std::uint16_t>(content, 1);
-  std::string topic(text_of(content.subspan(3)));
+  const auto id = ulog_value<std::uint16_t>(content, 1);
+  std::string topic(ulog_text(content.subspan(3)));
   const auto [known, is_new] = known_.try_emplace({topic, instance}, file_.series_.size());
   if (is_new) {
     UlogSeries series;
@@ -360,7 +304,7 @@ bool UlogReader::take_subscription(Bytes content) {
 
 bool UlogReader::take_record(Bytes content) {
   if (content.size() < sizeof(std::uint16_t)) return false;
-  const auto home = homes_.find(little_endian<std::uint16_t>(content, 0));
+  const auto home = homes_.find(ulog_value<std::uint16_t>(content, 0));
   if (home == homes_.end()) return false;
   UlogSeries& series = file_.series_[home->second];
   const Bytes record = content.subspan(sizeof(std::uint16_t));
@@ -375,22 +319,22 @@ bool UlogReader::take_text(Bytes content, bool tagged) {
   if (content.size() < head) return false;
   UlogText said;
   said.level = static_cast<char>(content[0]);
-  if (tagged) said.tag = little_endian<std::uint16_t>(content, 1);
-  said.timestamp = little_endian<std::uint64_t>(content, head - sizeof(std::uint64_t));
-  said.text = on_one_line(std::string(text_of(content.subspan(head))));
+  if (tagged) said.tag = ulog_value<std::uint16_t>(content, 1);
+  said.timestamp = ulog_value<std::uint64_t>(content, head - sizeof(std::uint64_t));
+  said.text = on_one_line(std::string(ulog_text(content.subspan(head))));
   file_.texts_.push_back(std::move(said));
   return true;
 }
 
 bool UlogReader::take_dropout(Bytes content) {
-  if (content.size() != sizeof(std::uint16_t)) return false;
   ++file_.damage_.dropouts;
-  file_.damage_.dropout_milliseconds += little_endian<std::uint16_t>(content, 0);
+  file_.damage_.dropout_milliseconds += ulog_value<std::uint16_t>(content, 0);
   return true;
 }
 
 // Formats may come after the records that they describe.
-void UlogReader::sort_records() {
+void UlogReader::find_late_formats() {
+  file_.layouts_.look_again();
   for (UlogSeries& series : file_.series_) {
     if (series.layout_ == nullptr) series.layout_ = file_.layouts_.find(series.topic_);
     if (series.layout_ == nullptr) {

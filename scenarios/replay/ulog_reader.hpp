@@ -53,6 +53,8 @@ class UlogReader {
   /// Where the messages go on after `place`, or the end.
   std::size_t next_sound(std::size_t place, std::size_t end) const;
 
+  /// Is it likely, and if it is long, does something sound follow it?
+  bool is_believed(const Message& message, std::size_t end) const;
   void count_odd(const Message& message, bool known);
   /// @return can it be what its type says?
   bool take(const Message& message);
@@ -65,7 +67,7 @@ class UlogReader {
   bool take_record(Bytes content);
   bool take_text(Bytes content, bool tagged);
   bool take_dropout(Bytes content);
-  void sort_records();
+  void find_late_formats();
 
   std::string name_;
   UlogFile file_;

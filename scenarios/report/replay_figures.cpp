@@ -130,8 +130,9 @@ plot::Plane replayed_path(const std::vector<ReportRun>& runs) {
   };
   const ReportRun& first = runs.front();
   track("fixes", kFixStyle, curve_of(first, kFix, "p_N.x"), curve_of(first, kFix, "p_N.y"));
-  track(recorded_name(first), kRecordedStyle, curve_of(first, kPosition, "p_NB_N.x"),
-        curve_of(first, kPosition, "p_NB_N.y"));
+  const Curve known = curve_of(first, kPosition, "position_known");
+  track(recorded_name(first), kRecordedStyle, where(curve_of(first, kPosition, "p_NB_N.x"), known),
+        where(curve_of(first, kPosition, "p_NB_N.y"), known));
   for (std::size_t i = 0; i < runs.size(); ++i)
     track(label(runs, i), colour(i), estimate_of(runs[i], "p_NB_N.x"), estimate_of(runs[i], "p_NB_N.y"));
   return plane;

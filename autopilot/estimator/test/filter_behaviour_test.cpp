@@ -225,6 +225,27 @@ TEST_P(FilterTest, GivesTheSameBytesAfterAReset) {
   EXPECT_EQ(first.q_NB.coeffs(), x.q_NB.coeffs());
 }
 
+TEST_P(FilterTest, IsLessSureOfItsAttitudeWhenItIsShakenAndToldWhatThatDoes) {
+  const auto tilt_sigma = [this](double gyro_per_vibration) {
+    make(AidingParams{}, true);
+    if (auto* const ekf = dynamic_cast<Ekf*>(estimator.get())) {
+      EkfParams params = ekf->params();
+      params.noise.gyro_per_vibration = gyro_per_vibration;
+      ekf->set_params(params);
+    } else {
+      auto& filter = dynamic_cast<ErrorStateFilter&>(*estimator);
+      ErrorStateParams params = filter.params();
+      params.noise.gyro_per_vibration = gyro_per_vibration;
+      filter.set_params(params);
+    }
+    sensors = FakeSensors(5);
+    sensors.errors.accelerometer = 2.0;
+    fly(12.0);
+    return x.sigma_attitude.x();
+  };
+  EXPECT_GT(tilt_sigma(0.005), 1.5 * tilt_sigma(0.0));
+}
+
 // What a compass says on a field with iron in it, real flights say, is up to 20 degrees wrong.
 TEST_P(FilterTest, SeeksTheHeadingAnewAboveTheGroundsIron) {
   const auto fly_from_iron = [this](double ground_sigma) {

@@ -3,12 +3,14 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "autopilot/estimator/alignment.hpp"
 #include "autopilot/estimator/delay_line.hpp"
 #include "autopilot/estimator/fix_trust.hpp"
 #include "autopilot/estimator/gate.hpp"
 #include "autopilot/estimator/scalar_update.hpp"
+#include "autopilot/estimator/vibration_watch.hpp"
 #include "autopilot/math/euler_zyx.hpp"
 
 namespace ironbird::autopilot {
@@ -60,6 +62,19 @@ TEST(FixTrustTest, BlamesTheReceiverUnlessTheFilterMayHaveDriftedSoFar) {
   trust.position_believed(milliseconds(9200));
   EXPECT_TRUE(trust.blames_receiver(2.0, kWorst, milliseconds(9300), kSilence));
   EXPECT_FALSE(trust.blames_receiver(5.9, kWorst, milliseconds(11200), kSilence)) << "the pause goes on";
+}
+
+TEST(VibrationWatchTest, FeelsWhatIsFastAndNotWhatIsSlow) {
+  constexpr double kStep = 0.0025;  // s
+  VibrationWatch shaken;
+  VibrationWatch flown;
+  for (int k = 0; k < 4000; ++k) {
+    const double t = k * kStep;
+    shaken.add({0.0, 0.0, -9.81 + 3.0 * std::sin(2.0 * std::numbers::pi * 60.0 * t)}, kStep);
+    flown.add({3.0 * std::sin(2.0 * std::numbers::pi * 0.1 * t), 0.0, -9.81}, kStep);
+  }
+  EXPECT_NEAR(shaken.rms(), 3.0 / std::sqrt(2.0), 0.1);
+  EXPECT_LT(flown.rms(), 0.25);
 }
 
 TEST(GateTest, AcceptsRejectsAndFinallyResets) {

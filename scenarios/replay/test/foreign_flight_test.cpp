@@ -86,6 +86,7 @@ TEST_P(ForeignFlightTest, IsReadAsSomebodyElseReadsIt) {
       "node '" IRONBIRD_SOURCE_DIR "/scenarios/replay/test/foreign/read_ulog.mjs' '" + path.string() + "'"));
   const UlogFile ours = UlogFile::read(path);
   std::size_t messages = 0;
+  std::size_t series_with_messages = 0;
   for (const UlogSeries& series : ours.series()) {
     const std::string name = series.topic() + "[" + std::to_string(series.instance()) + "]";
     if (series.size() == 0) {
@@ -96,8 +97,10 @@ TEST_P(ForeignFlightTest, IsReadAsSomebodyElseReadsIt) {
     EXPECT_EQ(theirs["series"][name]["count"], series.size()) << name;
     EXPECT_EQ(theirs["series"][name]["sha256"], digest(Writer(series).all())) << name;
     messages += series.size();
+    ++series_with_messages;
   }
   EXPECT_GT(messages, 10'000U);
+  EXPECT_EQ(theirs["series"].size(), series_with_messages) << "theirs has none that ours lacks";
   for (const auto& [name, value] : theirs["parameters"].items()) {
     ASSERT_TRUE(ours.parameter(name)) << name;
     if (value.is_null()) continue;

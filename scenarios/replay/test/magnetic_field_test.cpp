@@ -65,8 +65,7 @@ TEST(MagneticFieldTest, AgreesWithSomebodyElses) {
   EXPECT_GT(same, 100U);
 }
 
-// The values that NOAA publishes with the model, WMM2025 test values, at its epoch: height 0, 80 N 0 E; 0 N
-// 120 E; 80 S 240 E.
+// Of the values that NOAA publishes with WMM2025, at its epoch and height 0: 80 N 0 E, and 0 N 120 E.
 TEST(MagneticFieldTest, GivesThePublishedValues) {
   const MagneticField north = field_at({2025.0, 0.0, 80.0, 0.0});
   EXPECT_NEAR(north.b_N.x() * 1e9, 6521.6, 0.1);

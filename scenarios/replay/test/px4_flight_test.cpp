@@ -27,19 +27,19 @@ constexpr std::uint64_t kBoot = 5'000'000;  // us, of the first sample of the IM
 constexpr double kRadians = std::numbers::pi / 180.0;
 
 /// A log with an IMU at 250 Hz for a second, to which a test adds topics.
-class Px4Log {
+class LogByHand {
  public:
-  Px4Log() {
+  LogByHand() {
     log_.format(
         "sensor_combined:uint64_t timestamp;float[3] gyro_rad;uint32_t gyro_integral_dt;int32_t "
         "accelerometer_timestamp_relative;float[3] accelerometer_m_s2;");
     log_.subscribe(0, 1, "sensor_combined");
   }
-  Px4Log& imu(std::uint64_t at, std::int32_t relative = 0, float rate = 0.1F) {
+  LogByHand& imu(std::uint64_t at, std::int32_t relative = 0, float rate = 0.1F) {
     log_.record(1, kBoot + at, rate, 0.2F, 0.3F, std::uint32_t{4000}, relative, 0.5F, -0.25F, -9.75F);
     return *this;
   }
-  Px4Log& second() {
+  LogByHand& second() {
     for (std::uint64_t k = 0; k <= 250; ++k) imu(4000 * k);
     return *this;
   }
@@ -75,7 +75,7 @@ void add_old_fixes(UlogByHand& log) {
 }
 
 TEST(Px4FlightTest, MakesFramesOfTheImu) {
-  const auto imu = of<rosflight::SmallImu>(Px4Log().second().read());
+  const auto imu = of<rosflight::SmallImu>(LogByHand().second().read());
   ASSERT_EQ(imu.size(), 251U);
   EXPECT_EQ(imu[1].first, milliseconds(4));
   EXPECT_EQ(imu[1].second.time_boot_us, 4000U);
@@ -86,18 +86,19 @@ TEST(Px4FlightTest, MakesFramesOfTheImu) {
 }
 
 TEST(Px4FlightTest, PassesOverTimeThatRunsBackwardsAndMarksInvalidSamples) {
-  Px4Log log;
+  LogByHand log;
   log.imu(0).imu(4000).imu(4000).imu(1000).imu(8000, 0x7fffffff).imu(12000);
   const Px4Flight px4 = log.read();
   const auto imu = of<rosflight::SmallImu>(px4);
   ASSERT_EQ(imu.size(), 4U);
   EXPECT_TRUE(std::isnan(imu[2].second.zacc));
-  EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("2 samples of the IMU whose time does not go on")));
+  EXPECT_THAT(px4.flight.remarks,
+              Contains(HasSubstr("2 samples of the IMU with stamps that the others do not share")));
   EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("1 samples of the IMU are not valid")));
 }
 
 TEST(Px4FlightTest, BridgesSamplesThatTheLogLacks) {
-  Px4Log log;
+  LogByHand log;
   log.imu(0, 0, 0.0F).imu(12'000, 0, 0.3F).imu(212'000);  // two are missing, and then fifty: that is a gap
   const Px4Flight px4 = log.read();
   const auto imu = of<rosflight::SmallImu>(px4);
@@ -110,49 +111,49 @@ TEST(Px4FlightTest, BridgesSamplesThatTheLogLacks) {
 }
 
 TEST(Px4FlightTest, ReadsFixesWithWholeLatitudesAndTheirAge) {
-  Px4Log log;
+  LogByHand log;
   log.log().keyed('P', "float EKF2_GPS_DELAY", 150.0F);
   log.second();
   add_old_fixes(log.log());
   const Px4Flight px4 = log.read();
   const auto fixes = of<rosflight::RosflightGnss>(px4);
-  ASSERT_EQ(fixes.size(), 5U);
-  EXPECT_EQ(fixes[2].first, milliseconds(400));
-  EXPECT_EQ(fixes[2].second.rosflight_timestamp, 250'000U) << "measured before it arrived";
-  EXPECT_DOUBLE_EQ(fixes[2].second.lat, 47.3);
-  EXPECT_DOUBLE_EQ(fixes[2].second.lon, 8.5);
-  EXPECT_FLOAT_EQ(fixes[2].second.height, 432.1F);
-  EXPECT_EQ(fixes[2].second.vel_e, -2.0F);
-  EXPECT_EQ(fixes[2].second.h_acc, 1.5F);
-  EXPECT_EQ(fixes[2].second.s_acc, 0.3F);
-  EXPECT_EQ(fixes[2].second.num_sat, 14);
-  EXPECT_EQ(fixes[2].second.fix_type, 3) << "differential is one in three dimensions";
+  ASSERT_EQ(fixes.size(), 4U) << "the first was measured before the first sample of the IMU";
+  EXPECT_EQ(fixes[1].first, milliseconds(400));
+  EXPECT_EQ(fixes[1].second.rosflight_timestamp, 250'000U) << "measured before it arrived";
+  EXPECT_DOUBLE_EQ(fixes[1].second.lat, 47.3);
+  EXPECT_DOUBLE_EQ(fixes[1].second.lon, 8.5);
+  EXPECT_FLOAT_EQ(fixes[1].second.height, 432.1F);
+  EXPECT_EQ(fixes[1].second.vel_e, -2.0F);
+  EXPECT_EQ(fixes[1].second.h_acc, 1.5F);
+  EXPECT_EQ(fixes[1].second.s_acc, 0.3F);
+  EXPECT_EQ(fixes[1].second.num_sat, 14);
+  EXPECT_EQ(fixes[1].second.fix_type, 3) << "differential is one in three dimensions";
   EXPECT_DOUBLE_EQ(px4.gnss_delay, static_cast<double>(150.0F) * 1e-3);
   EXPECT_DOUBLE_EQ(log.read({.mag = {}, .gnss_delay = 0.05}).gnss_delay, 0.05);
   EXPECT_DOUBLE_EQ(*px4.unix_time, 1.685e9);
 }
 
 TEST(Px4FlightTest, ReadsFixesInDegrees) {
-  Px4Log log;
+  LogByHand log;
   log.second();
   log.log().format(
       "sensor_gps:uint64_t timestamp;double latitude_deg;double longitude_deg;double altitude_msl_m;uint8_t "
       "fix_type;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;");
   log.log()
       .subscribe(0, 2, "sensor_gps")
-      .record(2, kBoot + 100'000, 33.5, -117.5, 46.9, std::uint8_t{6}, 0.0F, 0.0F, 0.0F);
+      .record(2, kBoot + 200'000, 33.5, -117.5, 46.9, std::uint8_t{6}, 0.0F, 0.0F, 0.0F);
   const auto fixes = of<rosflight::RosflightGnss>(log.read());
   ASSERT_EQ(fixes.size(), 1U);
   EXPECT_DOUBLE_EQ(fixes[0].second.lat, 33.5);
   EXPECT_DOUBLE_EQ(fixes[0].second.lon, -117.5);
   EXPECT_FLOAT_EQ(fixes[0].second.height, 46.9F);
   EXPECT_EQ(fixes[0].second.fix_type, 7) << "RTK fixed";
-  EXPECT_EQ(fixes[0].second.rosflight_timestamp, 0U) << "before the first sample of the IMU";
+  EXPECT_EQ(fixes[0].second.rosflight_timestamp, 90'000U) << "PX4's usual delay";
 }
 
 TEST(Px4FlightTest, ReadsEveryLayoutOfTheBarometer) {
   const auto first_of = [](const char* format, const char* topic, auto... values) {
-    Px4Log log;
+    LogByHand log;
     log.second();
     log.log().format(format).subscribe(0, 3, topic).record(3, kBoot + 20'000, values...);
     return of<rosflight::SmallBaro>(log.read()).at(0).second;
@@ -183,7 +184,7 @@ TEST(Px4FlightTest, ReadsEveryLayoutOfTheBarometer) {
 
 /// Magnetometers with these strengths, gauss, in the order of their instances.
 Px4Flight with_mags(const std::vector<float>& strengths, const Px4Choice& choice = {}) {
-  Px4Log log;
+  LogByHand log;
   log.second();
   add_old_fixes(log.log());
   log.log().format("vehicle_magnetometer:uint64_t timestamp;float[3] magnetometer_ga;");
@@ -218,7 +219,7 @@ TEST(Px4FlightTest, TakesTheMagnetometerThatIsNamedOrSaysWhichThereAre) {
 }
 
 TEST(Px4FlightTest, ReadsTheRecordedEstimateWhereItWasBelieved) {
-  Px4Log log;
+  LogByHand log;
   log.second();
   log.log()
       .format("vehicle_attitude:uint64_t timestamp;uint64_t timestamp_sample;float[4] q;")
@@ -250,7 +251,7 @@ TEST(Px4FlightTest, ReadsTheRecordedEstimateWhereItWasBelieved) {
 }
 
 TEST(Px4FlightTest, KnowsWhenItWasAirborneAndArmed) {
-  Px4Log log;
+  LogByHand log;
   log.second();
   log.log()
       .format("vehicle_land_detected:uint64_t timestamp;bool landed;")
@@ -276,7 +277,7 @@ TEST(Px4FlightTest, KnowsWhenItWasAirborneAndArmed) {
 }
 
 TEST(Px4FlightTest, SaysWhatIsMissingOrIsNoFlight) {
-  Px4Log log;
+  LogByHand log;
   log.log().keyed('I', "char[9] ver_hw", "PX4_SITL_").keyed('I', "char[3] sys_name", "PX4");
   log.second();
   log.log()
@@ -292,14 +293,79 @@ TEST(Px4FlightTest, SaysWhatIsMissingOrIsNoFlight) {
   EXPECT_THROW(read_px4_flight(empty.read(), "empty.ulg"), UserError);
 }
 
+TEST(Px4FlightTest, SetsAsideAStampThatTheOthersDoNotShare) {
+  for (const std::uint64_t wild : {std::uint64_t{0}, std::uint64_t{30}}) {
+    LogByHand log;
+    for (std::uint64_t k = 0; k < 100; ++k) log.imu(k == wild ? 3'600'000'000 : 4000 * k);
+    const Px4Flight px4 = log.read();
+    EXPECT_LE(px4.flight.end, milliseconds(400));
+    EXPECT_GE(of<rosflight::SmallImu>(px4).size(), 99U)
+        << "with one put in its place, but where it was the first";
+    EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("1 samples of the IMU with stamps that the others")));
+  }
+}
+
+TEST(Px4FlightTest, EndsWhereTheClockStepsBackForGood) {
+  LogByHand log;
+  for (std::uint64_t k = 0; k < 100; ++k) log.imu(5'000'000 + 4000 * k);
+  for (std::uint64_t k = 0; k < 100; ++k) log.imu(4000 * k);
+  const Px4Flight px4 = log.read();
+  EXPECT_EQ(of<rosflight::SmallImu>(px4).size(), 100U);
+  EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("its clock steps back by 5.4 s after 0.4 s")));
+}
+
+TEST(Px4FlightTest, TakesNoDelayThatCannotBeAndNoFixThatIsNone) {
+  for (const float delay : {std::nanf(""), 1e30F, -5000.0F}) {
+    LogByHand log;
+    log.log().keyed('P', "float EKF2_GPS_DELAY", delay);
+    log.second();
+    add_old_fixes(log.log());
+    const Px4Flight px4 = log.read();
+    EXPECT_DOUBLE_EQ(px4.gnss_delay, 0.11);
+    EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("EKF2_GPS_DELAY")));
+  }
+  LogByHand log;
+  log.second();
+  log.log().format(
+      "sensor_gps:uint64_t timestamp;double latitude_deg;double longitude_deg;double altitude_msl_m;uint8_t "
+      "fix_type;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;");
+  log.log().subscribe(0, 2, "sensor_gps");
+  for (const double latitude : {std::nan(""), 33.5}) {
+    log.log().record(2, kBoot + 500'000, latitude, -117.5, 46.9, std::uint8_t{3}, 0.0F, 0.0F, 0.0F);
+  }
+  const Px4Flight px4 = log.read();
+  ASSERT_TRUE(px4.first_fix);
+  EXPECT_EQ(px4.first_fix->lat, 33.5);
+  EXPECT_GT(px4.first_fix->h_acc, 0.0F) << "a receiver that does not tell its accuracy has a usual one";
+  EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("1 of its GNSS fixes are no numbers")));
+}
+
+TEST(Px4FlightTest, ComparesOnTheEarthWhenPx4MovesItsOrigin) {
+  LogByHand log;
+  log.second();
+  log.log().format(
+      "vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float y;float z;float "
+      "ref_alt;uint8_t xy_reset_counter;");
+  log.log().subscribe(0, 21, "vehicle_local_position");
+  constexpr double kNorth = 100.0 / 111'320.0;  // deg
+  log.log().record(21, kBoot + 100'000, 47.3, 8.5, 10.0F, 0.0F, -3.0F, 430.0F, std::uint8_t{0});
+  log.log().record(21, kBoot + 200'000, 47.3 + kNorth, 8.5, -90.0F, 0.0F, -3.0F, 430.0F, std::uint8_t{1});
+  const Px4Flight px4 = log.read();
+  const auto& positions = px4.flight.estimates.at(0).positions;
+  ASSERT_EQ(positions.size(), 2U);
+  EXPECT_NEAR(positions[1].p_NB_N.x(), positions[0].p_NB_N.x(), 0.1);
+  EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("1 times PX4 moved the origin")));
+  EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("1 times PX4 stepped its position")));
+}
+
 TEST(Px4FlightTest, MakesNoMoreOfAGapOfDaysThanOfOneOfSeconds) {
-  Px4Log log;
+  LogByHand log;
   log.imu(0).imu(4000).imu(900'000'000'000);
   EXPECT_LT(log.read().flight.messages.size(), 10U);
 }
 
 TEST(Px4FlightTest, PutsTheImuBehindWhatCameAtTheSameTime) {
-  Px4Log log;
+  LogByHand log;
   log.second();
   add_old_fixes(log.log());
   const Px4Flight px4 = log.read();
