@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "autopilot/math/standard_atmosphere.hpp"
@@ -21,7 +20,6 @@ using hil_bridge::Arrival;
 using hil_bridge::Time;
 namespace rosflight = hil_bridge::rosflight;
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kTeslaPerGauss = 1e-4;
 constexpr double kZeroCelsius = 273.15;  // K
 constexpr double kUsualDelay = 0.11;     // s, PX4's own default
