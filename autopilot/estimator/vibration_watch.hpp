@@ -7,14 +7,14 @@
 
 namespace ironbird::autopilot {
 
-/// How much the airframe shakes: the root mean square, over a second, of the specific force less its low pass. docs/equations.md,
-/// section 3.
+/// How much the airframe shakes: the root mean square, over a second, of the specific force less its low
+/// pass. docs/equations.md, section 3.
 class VibrationWatch {
  public:
   /// @param f_B  specific force, m/s^2
   /// @param dt   since the sample before, s, > 0
   void add(const Vector3& f_B, double dt) {
-    constexpr double kSlowAfter = 0.1;    // s, what changes slower is the vehicle's motion
+    constexpr double kSlowAfter = 0.1;   // s, what changes slower is the vehicle's motion
     constexpr double kRemembered = 1.0;  // s
     if (!started_) f_slow_B_ = f_B;
     started_ = true;

@@ -82,8 +82,8 @@ class PositionReader {
   }
 
   const Px4Records& local_;
-  std::optional<UlogPlace> x_, y_, z_, vx_, vy_, vz_, xy_valid_, z_valid_, v_xy_valid_, v_z_valid_, xy_global_,
-      latitude_, longitude_, altitude_;
+  std::optional<UlogPlace> x_, y_, z_, vx_, vy_, vz_, xy_valid_, z_valid_, v_xy_valid_, v_z_valid_,
+      xy_global_, latitude_, longitude_, altitude_;
 };
 
 /// How often a counter of PX4's resets moved while the IMU was logged.
@@ -115,8 +115,8 @@ void add_positions(Px4Log& log, RecordedEstimate& px4) {
                         origin.altitude == last.altitude;
       if (!same) ++moved;
       last = origin;
-      position.p_NB_N = autopilot::local_from_geodetic(
-          autopilot::geodetic_from_local(position.p_NB_N, origin), px4.origin);
+      position.p_NB_N =
+          autopilot::local_from_geodetic(autopilot::geodetic_from_local(position.p_NB_N, origin), px4.origin);
     }
     px4.positions.push_back(position);
   }

@@ -36,7 +36,8 @@ class ImuReader {
     imu_ = log_.records("sensor_combined");
     const auto rates = imu_.find("gyro_rad");
     const auto forces = imu_.find("accelerometer_m_s2");
-    if (!rates || !forces) throw UserError(log_.name + ": its IMU samples have no rates or no specific forces");
+    if (!rates || !forces)
+      throw UserError(log_.name + ": its IMU samples have no rates or no specific forces");
     const auto relative = imu_.find("accelerometer_timestamp_relative");
     const auto length = imu_.find("gyro_integral_dt");
     std::size_t invalid = 0;
@@ -67,8 +68,9 @@ class ImuReader {
     const UlogSeries* const series = log_.file.find("sensor_combined");
     const auto stamp = series == nullptr ? std::nullopt : series->find("timestamp");
     if (!stamp || series->size() == 0) {
-      throw UserError(log_.name +
-                      ": has no IMU samples (topic sensor_combined); set SDLOG_PROFILE so that they are logged");
+      throw UserError(
+          log_.name +
+          ": has no IMU samples (topic sensor_combined); set SDLOG_PROFILE so that they are logged");
     }
     log_.zero = series->integer(0, *stamp);
     imu_ = log_.records("sensor_combined");
@@ -93,7 +95,8 @@ class ImuReader {
     if (soon || (goes_on && has_company)) return true;
     if (before_ && !goes_on && has_company && before_->when - when > kLongestGap) {
       char text[128];
-      std::snprintf(text, sizeof text, "its clock steps back by %.1f s after %.1f s: what comes later is left out",
+      std::snprintf(text, sizeof text,
+                    "its clock steps back by %.1f s after %.1f s: what comes later is left out",
                     1e-9 * static_cast<double>((before_->when - when).count()),
                     1e-9 * static_cast<double>(before_->when.count()));
       log_.remark(text);
@@ -107,8 +110,8 @@ class ImuReader {
   void add(const Sample& sample) {
     const Eigen::Vector3f f = sample.force.cast<float>();
     const Eigen::Vector3f w = sample.rate.cast<float>();
-    messages_.push_back({sample.when, rosflight::SmallImu{wire_stamp(sample.when), f.x(), f.y(), f.z(), w.x(), w.y(),
-                                                          w.z(), 0.0F}});
+    messages_.push_back({sample.when, rosflight::SmallImu{wire_stamp(sample.when), f.x(), f.y(), f.z(), w.x(),
+                                                          w.y(), w.z(), 0.0F}});
   }
 
   /// @param length  over which a sample is the mean, ns. @return how many samples were put in before `after`

@@ -18,7 +18,8 @@
 
 namespace ironbird::scenarios {
 
-/// One topic of a log, its fields by name whatever their type, its times since the log's first sample of the IMU.
+/// One topic of a log, its fields by name whatever their type, its times since the log's first sample of the
+/// IMU.
 class Px4Records {
  public:
   Px4Records() = default;
@@ -84,9 +85,9 @@ class Px4Log {
   Px4Log(const UlogFile& log, std::string its_name) : file(log), name(std::move(its_name)) {}
 
   const UlogFile& file;
-  std::string name;           ///< in messages
-  std::int64_t zero = 0;      ///< us since boot
-  hil_bridge::Time end{};     ///< since zero
+  std::string name;        ///< in messages
+  std::int64_t zero = 0;   ///< us since boot
+  hil_bridge::Time end{};  ///< since zero
   std::vector<std::string> remarks;
 
   void remark(std::string text) { remarks.push_back(std::move(text)); }
@@ -94,7 +95,9 @@ class Px4Log {
   void remark_count(std::size_t count, const std::string& what) {
     if (count > 0) remark(std::to_string(count) + " " + what);
   }
-  Px4Records records(std::string_view topic, int instance = 0) const { return {file.find(topic, instance), zero}; }
+  Px4Records records(std::string_view topic, int instance = 0) const {
+    return {file.find(topic, instance), zero};
+  }
   /// The first of these topics that was logged.
   Px4Records first_of(std::initializer_list<std::string_view> topics) const {
     for (const std::string_view topic : topics) {

@@ -89,7 +89,9 @@ class GnssReader {
     fix.fix_type = fix_type(fixes_.integer(k, kind_));
     return fix;
   }
-  bool has_velocity(std::size_t k) const { return !velocity_valid_ || fixes_.integer(k, velocity_valid_) != 0; }
+  bool has_velocity(std::size_t k) const {
+    return !velocity_valid_ || fixes_.integer(k, velocity_valid_) != 0;
+  }
   /// s since 1970, where the receiver knows it.
   std::optional<double> unix_time(std::size_t k) const {
     constexpr std::int64_t kEarliest = 946'684'800'000'000;  // us, the year 2000
@@ -101,8 +103,8 @@ class GnssReader {
  private:
   const Px4Records& fixes_;
   bool in_degrees_;
-  std::optional<UlogPlace> latitude_, longitude_, altitude_, v_N_, v_E_, v_D_, eph_, epv_, speed_, satellites_, kind_,
-      velocity_valid_, utc_;
+  std::optional<UlogPlace> latitude_, longitude_, altitude_, v_N_, v_E_, v_D_, eph_, epv_, speed_,
+      satellites_, kind_, velocity_valid_, utc_;
 };
 
 bool is_on_earth(const rosflight::RosflightGnss& fix) {
@@ -120,7 +122,8 @@ double delay_of(Px4Log& log, std::optional<double> named) {
   if (!told) return kUsualDelay;
   const double delay = 1e-3 * *told;
   if (delay >= 0.0 && delay <= kLongestDelay) return delay;
-  log.remark("its EKF2_GPS_DELAY of " + std::to_string(*told) + " ms cannot be: fixes are taken to be 110 ms old");
+  log.remark("its EKF2_GPS_DELAY of " + std::to_string(*told) +
+             " ms cannot be: fixes are taken to be 110 ms old");
   return kUsualDelay;
 }
 
@@ -160,11 +163,12 @@ MagCandidate candidate(int instance, const Px4Records& mag, const std::optional<
 }
 
 /// @return nothing when there is none
-std::optional<int> choose(const std::vector<MagCandidate>& mags, std::optional<int> named, const std::string& log) {
+std::optional<int> choose(const std::vector<MagCandidate>& mags, std::optional<int> named,
+                          const std::string& log) {
   if (!named) {
-    const auto best = std::min_element(mags.begin(), mags.end(), [](const MagCandidate& one, const MagCandidate& other) {
-      return one.misfit < other.misfit;
-    });
+    const auto best = std::min_element(
+        mags.begin(), mags.end(),
+        [](const MagCandidate& one, const MagCandidate& other) { return one.misfit < other.misfit; });
     return best != mags.end() && best->samples > 0 ? std::optional(best->instance) : std::nullopt;
   }
   std::string there;
@@ -209,7 +213,8 @@ std::vector<Arrival> read_px4_gnss(Px4Log& log, std::optional<double> delay, Px4
   log.remark_count(without_velocity, "of its GNSS fixes have no velocity: passed over");
   log.remark_count(no_numbers, "of its GNSS fixes are no numbers: passed over");
   if (fixes.size() == 0) {
-    log.remark("it has no GNSS fixes (topic vehicle_gps_position): position and velocity cannot be estimated");
+    log.remark(
+        "it has no GNSS fixes (topic vehicle_gps_position): position and velocity cannot be estimated");
   } else if (!any_usable) {
     log.remark("none of its GNSS fixes is of use: position and velocity cannot be estimated");
   }
@@ -247,7 +252,8 @@ std::vector<Arrival> read_px4_baro(Px4Log& log) {
   const auto temperature = air.find_one_of({"baro_temp_celcius", "ambient_temperature", "temperature"});
   const auto pressure = air.find_one_of({"baro_pressure_pa", "pressure"});
   const auto height = air.find("baro_alt_meter");
-  if (!pressure && !height) log.remark("it has no barometer: the height cannot be known, and no filter starts");
+  if (!pressure && !height)
+    log.remark("it has no barometer: the height cannot be known, and no filter starts");
   std::vector<Arrival> messages;
   for (std::size_t k = 0; (pressure || height) && k < air.size(); ++k) {
     const Time when = air.measured(k);
@@ -255,8 +261,9 @@ std::vector<Arrival> read_px4_baro(Px4Log& log) {
     double pascal = pressure ? air.number(k, pressure) : autopilot::standard_pressure(air.number(k, height));
     constexpr double kLessThanAnyPascal = 2000.0;  // older versions tell hectopascal
     if (pascal < kLessThanAnyPascal) pascal *= 100.0;
-    messages.push_back({when, rosflight::SmallBaro{0.0F, static_cast<float>(pascal),
-                                                   or_else(air.number(k, temperature) + kZeroCelsius, kUsualTemperature)}});
+    messages.push_back(
+        {when, rosflight::SmallBaro{0.0F, static_cast<float>(pascal),
+                                    or_else(air.number(k, temperature) + kZeroCelsius, kUsualTemperature)}});
   }
   return messages;
 }

@@ -33,8 +33,8 @@ struct UlogKeyed {
 /// Takes an information, a parameter and the like apart. @return nothing when it is none
 std::optional<UlogKeyed> ulog_keyed(std::span<const std::uint8_t> content);
 
-/// The value as text, whatever its type; of an array of numbers the first. @return nothing when it has another length
-/// than its type says
+/// The value as text, whatever its type; of an array of numbers the first. @return nothing when it has
+/// another length than its type says
 std::optional<std::string> ulog_value_text(const UlogKeyed& found);
 
 /// @return nothing when it is neither a whole number of 32 bits nor a float

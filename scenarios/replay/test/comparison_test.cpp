@@ -73,9 +73,11 @@ TEST(ComparisonTest, ComparesPositionsOnTheEarth) {
 
 TEST(ComparisonTest, TakesAnglesTheShortWayRound) {
   RecordedEstimate recorded;
-  recorded.attitudes.push_back({milliseconds(15), Quaternion(Eigen::AngleAxisd(std::numbers::pi - 0.01, Vector3::UnitZ()))});
+  recorded.attitudes.push_back(
+      {milliseconds(15), Quaternion(Eigen::AngleAxisd(std::numbers::pi - 0.01, Vector3::UnitZ()))});
   Comparison comparison(recorded, kAll);
-  for (int k = 0; k < 3; ++k) comparison.observe(estimate_at(10 * k, Vector3::Zero(), -std::numbers::pi + 0.01));
+  for (int k = 0; k < 3; ++k)
+    comparison.observe(estimate_at(10 * k, Vector3::Zero(), -std::numbers::pi + 0.01));
   EXPECT_NEAR(figure(comparison, "heading_difference_rms_deg"), 0.02 * 180.0 / std::numbers::pi, 1e-9);
 }
 
@@ -111,7 +113,8 @@ TEST(ReplayVerdictTest, IsNoPassWhenLittleWasCompared) {
 
 TEST(ReplayVerdictTest, ReadsBoundsOfFiguresThatThereAre) {
   EXPECT_EQ(parse_replay_bound("roll_difference_rms_deg=0.5").most, 0.5);
-  for (const char* text : {"roll_difference_rms_deg", "roll_difference_rms_deg=", "roll_difference_rms_deg=x", "roll=1"})
+  for (const char* text :
+       {"roll_difference_rms_deg", "roll_difference_rms_deg=", "roll_difference_rms_deg=x", "roll=1"})
     EXPECT_THROW(parse_replay_bound(text), ConfigError) << text;
 }
 
@@ -119,7 +122,8 @@ TEST(ReplayTest, LeavesTakeOffAndLandingOut) {
   RecordedFlight flight;
   flight.end = std::chrono::seconds(80);
   EXPECT_EQ(usual_window(flight).end, flight.end);
-  flight.airborne = {{std::chrono::seconds(2), std::chrono::seconds(30)}, {std::chrono::seconds(31), std::chrono::seconds(70)}};
+  flight.airborne = {{std::chrono::seconds(2), std::chrono::seconds(30)},
+                     {std::chrono::seconds(31), std::chrono::seconds(70)}};
   EXPECT_EQ(usual_window(flight).begin, std::chrono::seconds(5));
   EXPECT_EQ(usual_window(flight).end, std::chrono::seconds(69));
 }
