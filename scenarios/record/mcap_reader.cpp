@@ -3,16 +3,14 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
 
 #include "scenarios/config/one_line.hpp"
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/byte_cursor.hpp"
 #include "scenarios/record/crc32.hpp"
+#include "scenarios/record/log_bytes.hpp"
 
 namespace ironbird::scenarios {
 namespace {
@@ -54,23 +52,7 @@ McapMessage read_message(ByteCursor& cursor) {
 
 }  // namespace
 
-McapReader::McapReader(const std::filesystem::path& file) : path_(file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw UserError(file.string() + ": cannot be opened: it is a folder; name the log in it");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream || !std::filesystem::is_regular_file(file)) {
-    throw UserError(file.string() + ": cannot be opened: " +
-                    (errno == ENOENT ? "there is no such file"
-                     : errno == 0    ? "it is no file"
-                                     : std::strerror(errno)));
-  }
-  bytes_.resize(static_cast<std::size_t>(stream.tellg()));
-  stream.seekg(0);
-  stream.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size()));
-  if (!stream) throw UserError(file.string() + ": cannot be read");
-
+McapReader::McapReader(const std::filesystem::path& file) : path_(file), bytes_(read_log_bytes(file)) {
   const std::size_t magic = std::min(bytes_.size(), kMcapMagic.size());
   if (!std::equal(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(magic), kMcapMagic.begin())) {
     throw UserError(file.string() + ": is not a log: it does not begin like an MCAP file");

@@ -1,16 +1,13 @@
 #include "scenarios/replay/ulog_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
-#include <system_error>
 #include <type_traits>
 
-#include "scenarios/config/user_error.hpp"
+#include "scenarios/record/log_bytes.hpp"
 #include "scenarios/replay/ulog_reader.hpp"
 
 namespace ironbird::scenarios {
@@ -123,22 +120,7 @@ std::int64_t UlogSeries::integer(std::size_t k, const UlogPlace& place, std::siz
 }
 
 UlogFile UlogFile::read(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw UserError(file.string() + ": cannot be opened: it is a folder; name the log in it");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream || !std::filesystem::is_regular_file(file, ignored)) {
-    throw UserError(file.string() + ": cannot be opened: " +
-                    (errno == ENOENT ? "there is no such file"
-                     : errno == 0    ? "it is no file"
-                                     : std::strerror(errno)));
-  }
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(stream.tellg()));
-  stream.seekg(0);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) throw UserError(file.string() + ": cannot be read");
-  return from(std::move(bytes), file.string());
+  return from(read_log_bytes(file), file.string());
 }
 
 UlogFile UlogFile::from(std::vector<std::uint8_t> bytes, const std::string& name) {
