@@ -60,6 +60,13 @@ const Recorder::Source* Recorder::find(std::string_view topic) const {
   return found == sources_.end() ? nullptr : &*found;
 }
 
+void Recorder::write(Channel channel, Time now) {
+  if (channel.index < 0) return;
+  const Source& source = sources_[static_cast<std::size_t>(channel.index)];
+  source.encode(source.live, writer_.begin_message(source.channel, now));
+  writer_.end_message();
+}
+
 void Recorder::write(const Source& source, Encode encoder, const void* value, Time now) {
   if (!source.recorded) return;
   if (source.encode != encoder) {
@@ -71,7 +78,7 @@ void Recorder::write(const Source& source, Encode encoder, const void* value, Ti
 
 void Recorder::observe(Time now, bool frame) {
   for (Source& source : sources_) {
-    if (!frame && source.when == When::kWithFrames) continue;
+    if (source.when == When::kWhenTold || (!frame && source.when == When::kWithFrames)) continue;
     if (source.live == nullptr || !source.recorded || now < source.next) continue;
     if (source.period > Time{0}) source.next = (now / source.period + 1) * source.period;
     source.encode(source.live, writer_.begin_message(source.channel, now));

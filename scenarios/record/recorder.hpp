@@ -78,7 +78,8 @@ class Recorder {
   /// When a topic is looked at.
   enum class When : std::uint8_t {
     kWithFrames,  ///< when a frame has come
-    kAlways
+    kAlways,
+    kWhenTold  ///< by write()
   };
 
   /// Adds a topic that shows `live` at each multiple of `period`; 0: at each observe().
@@ -101,15 +102,20 @@ class Recorder {
   /// @throws std::runtime_error once when the file can no longer be written
   void observe(Time now, bool frame = true);
 
+  /// Writes one message of a topic that shows something, now.
+  void write(Channel channel, Time now);
+
+  /// Makes a topic for write_once() before there is a message of it.
+  template <class T>
+  void announce(std::string_view topic) {
+    add_source(topic, ros2_schema<T>(last_word(topic)), nullptr, &encode<T>, Time{0});
+  }
+
   /// Writes one message now. The topic is made on first use and takes one type only.
   template <class T>
   void write_once(std::string_view topic, const T& value, Time now) {
-    const Source* source = find(topic);
-    if (source == nullptr) {
-      add_source(topic, ros2_schema<T>(last_word(topic)), nullptr, &encode<T>, Time{0});
-      source = find(topic);
-    }
-    write(*source, &encode<T>, &value, now);
+    if (find(topic) == nullptr) announce<T>(topic);
+    write(*find(topic), &encode<T>, &value, now);
   }
 
   /// Adds a record of names and texts.

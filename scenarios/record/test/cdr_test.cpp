@@ -4,6 +4,8 @@
 
 #include <bit>
 
+#include "scenarios/config/user_error.hpp"
+#include "scenarios/record/cdr_decoder.hpp"
 #include "scenarios/record/test/by_hand.hpp"
 #include "scenarios/record/test/samples.hpp"
 
@@ -107,6 +109,67 @@ TEST(CdrTest, KeepsItsMemoryOnceItHasSeenTheLargestMessage) {
     encode_cdr(samples::filled(), out);
     EXPECT_EQ(out.data(), memory);
   }
+}
+
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+TEST(CdrDecoderTest, ReadsEveryKindOfMemberBack) {
+  EXPECT_EQ(encoded(decode_cdr<samples::Everything>(bytes_of(filled_by_hand()))), filled_by_hand());
+}
+
+TEST(CdrDecoderTest, ReadsWhatIsAbsentAndEmptyBack) {
+  const std::string nothing = encoded(samples::Everything{});
+  EXPECT_EQ(encoded(decode_cdr<samples::Everything>(bytes_of(nothing))), nothing);
+}
+
+TEST(CdrDecoderTest, RefusesEveryTruncationAndWhatIsTooLong) {
+  const std::string whole = filled_by_hand();
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_THROW(decode_cdr<samples::Everything>(bytes_of(whole.substr(0, size))), UserError) << size;
+  EXPECT_THROW(decode_cdr<samples::Everything>(bytes_of(whole + u8(0))), UserError);
+}
+
+TEST(CdrDecoderTest, NeverEndsOtherwiseThanWithAValueOrARefusal) {
+  for (std::size_t at = 0; at < filled_by_hand().size(); ++at) {
+    for (const int damage : {0, 1, 0x7F, 0xFF}) {
+      std::string bytes = filled_by_hand();
+      bytes[at] = static_cast<char>(damage);
+      try {
+        // What is taken says the same when it is written again.
+        const auto value = decode_cdr<samples::Everything>(bytes_of(bytes));
+        EXPECT_EQ(encoded(decode_cdr<samples::Everything>(bytes_of(encoded(value)))), encoded(value)) << at;
+      } catch (const UserError&) {
+      }
+    }
+  }
+}
+
+struct Chosen {
+  samples::Colour colour = samples::Colour::kRed;
+  samples::Choice choice;
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("colour", self.colour, "1", "an enumeration");
+    visit("choice", self.choice, "", "a variant");
+  }
+};
+
+TEST(CdrDecoderTest, RefusesNamesAndKindsThatThereAreNot) {
+  const auto refusal = [](const std::string& bytes) {
+    try {
+      decode_cdr<Chosen>(bytes_of(kHeader + bytes));
+    } catch (const UserError& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  EXPECT_EQ(refusal(u8(7) + u8(0) + pad(2) + u32(0)), "taken");
+  EXPECT_EQ(refusal(u8(2) + u8(0) + pad(2) + u32(0)), "holds 2 where no name is known for it");
+  EXPECT_EQ(refusal(u8(7) + u8(2) + pad(2) + u32(0)), "holds a kind that is not known");
+  EXPECT_EQ(refusal(u8(7) + u8(1) + pad(2) + u32(0)), "holds another kind than it says");
+  EXPECT_EQ(refusal(u8(7) + u8(0) + pad(2) + u32(2)), "holds 2 of what there is one of at most");
 }
 
 }  // namespace

@@ -47,6 +47,41 @@ TEST_F(RecorderTest, DoesNotDriftWhenItIsAskedBetweenTheMultiples) {
   EXPECT_THAT(log.topic("/slow")->time(), ElementsAre(0.0, 0.012, 0.021, 0.03, 0.042));
 }
 
+TEST_F(RecorderTest, WritesWhenItIsToldAndNotOtherwise) {
+  Recorder recorder(path());
+  const Recorder::Channel channel = recorder.add("/told", inner_, {}, Recorder::When::kWhenTold);
+  for (int i = 0; i < 10; ++i) {
+    recorder.observe(milliseconds(i));
+    if (i % 4 != 1) continue;
+    recorder.write(channel, milliseconds(i));
+    recorder.write(channel, milliseconds(i));
+  }
+  recorder.close();
+  EXPECT_THAT(Log::read(path()).topic("/told")->time(),
+              ElementsAre(0.001, 0.001, 0.005, 0.005, 0.009, 0.009));
+}
+
+TEST_F(RecorderTest, WritesNothingOfATopicThatARuleLeavesOut) {
+  RecorderOptions options;
+  options.topics = {{"/told", false, {}}};
+  Recorder recorder(path(), options);
+  recorder.write(recorder.add("/told", inner_, {}, Recorder::When::kWhenTold), milliseconds(1));
+  recorder.close();
+  EXPECT_EQ(Log::read(path()).topic("/told"), nullptr);
+}
+
+TEST_F(RecorderTest, HasATopicThatWasAnnouncedThoughNothingCameOfIt) {
+  Recorder recorder(path());
+  recorder.announce<samples::Inner>("/inner");
+  recorder.announce<samples::Inner>("/silent");
+  recorder.write_once("/inner", inner_, milliseconds(2));
+  recorder.close();
+  const Log log = Log::read(path());
+  EXPECT_THAT(log.topic("/inner")->time(), ElementsAre(0.002));
+  ASSERT_NE(log.topic("/silent"), nullptr);
+  EXPECT_TRUE(log.topic("/silent")->time().empty());
+}
+
 TEST_F(RecorderTest, ShowsWhatTheStructHoldsAtThatMoment) {
   Recorder recorder(path());
   recorder.add("/inner", inner_);
