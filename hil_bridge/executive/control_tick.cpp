@@ -54,11 +54,13 @@ void ControlTick::answer(const Arrival& arrival, Time now) {
   const autopilot::FcuCommand& command = pilot_.step(*frame);
   const Time stepped = mark();
   send_if_any(guard_.answer(command, frame->imu.stamp, now));
-  if (clock_ == nullptr) return;
-  const Time done = mark();
-  timing_.step.add(stepped - before);
-  timing_.send.add(done - stepped);
-  timing_.response.add(done - woke_);
+  if (clock_ != nullptr) {
+    const Time done = mark();
+    timing_.step.add(stepped - before);
+    timing_.send.add(done - stepped);
+    timing_.response.add(done - woke_);
+  }
+  if (on_step_) on_step_(now);
 }
 
 void ControlTick::send_if_any(const std::optional<rosflight::OffboardControl>& control) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "autopilot/autopilot.hpp"
@@ -21,6 +23,10 @@ class ControlTick {
 
   /// Measures from now on. @param clock  outlives this
   void measure(Clock& clock) { clock_ = &clock; }
+
+  /// Told after each step of the autopilot, of which a tick has several when frames waited: its command has
+  /// left, its signals are still there.
+  void on_step(std::function<void(Time)> told) { on_step_ = std::move(told); }
 
   /// @param bench_in_time  the loop around it keeps its period
   void run(Time now, bool bench_in_time = true);
@@ -47,6 +53,7 @@ class ControlTick {
   autopilot::Autopilot& pilot_;
   Guard& guard_;
   Clock* clock_ = nullptr;
+  std::function<void(Time)> on_step_;  // empty: nobody
   SensorFrameBuilder builder_;
   Telemetry telemetry_;
   LoopTiming timing_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "hil_bridge/executive/control_tick.hpp"
@@ -17,6 +19,8 @@ class Lockstep {
   Time tick(bool in_time = true);
 
   Time now() const { return now_; }
+  /// As ControlTick's.
+  void on_step(std::function<void(Time)> told) { tick_.on_step(std::move(told)); }
   const Telemetry& telemetry() const { return tick_.telemetry(); }
   /// The autopilot worked in the last tick.
   bool stepped() const { return tick_.stepped(); }

@@ -55,8 +55,8 @@ void Bench::wire_log() {
       options_.log_file,
       McapOptions{.journal = scenario_.record.journal, .compress = scenario_.record.compress}, loaded_,
       FlightLog::Sources{*autopilot_, lockstep_->telemetry(), &world_->truth()});
-  operator_->on_swap([this](const std::string& slot, const std::string& kind,
-                            const autopilot::Module& module) { log_->watch(slot, kind, module); });
+  lockstep_->on_step([this](Time now) { log_->step(now); });
+  log_->follow(*operator_);
   // A line that cannot fail has nothing to tell: its log is that of a unit without a line.
   if (rig_ || (line_ && line_->faults() != nullptr)) {
     log_->add(link_health_);

@@ -92,9 +92,7 @@ void Bench::end_link_fault(std::size_t number, Time now) {
 void Bench::ask_for_take_off(Time now) {
   if (pilot() != nullptr) {
     operator_->ask(autopilot::TakeOff{}, "take_off", now);
-  } else if (autopilot_->request(autopilot::TakeOff{}).accepted) {
-    judge_->event(now, "request", "take_off");
-  } else {
+  } else if (!operator_->ask_until_granted(autopilot::TakeOff{}, "take_off", now)) {
     playbook_.add_at(now + kAskAgain, {Deed::Kind::kTakeOff, 0});
   }
 }

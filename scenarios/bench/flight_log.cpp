@@ -1,5 +1,6 @@
 #include "scenarios/bench/flight_log.hpp"
 
+#include "scenarios/bench/logged_request.hpp"
 #include "scenarios/bench/run_time.hpp"
 
 namespace ironbird::scenarios {
@@ -42,9 +43,10 @@ void FlightLog::add_topics(const LoadedScenario& loaded) {
     recorder_.add("/truth/state", *sources_.truth, state, Recorder::When::kAlways);
   recorder_.add("/autopilot/estimate", signals.estimate, state);
   if (record.frames) {
-    recorder_.add("/autopilot/sensors", signals.sensors);
-    recorder_.add("/autopilot/command", signals.command);
+    sensors_ = recorder_.add("/autopilot/sensors", signals.sensors, {}, Recorder::When::kWhenTold);
+    command_ = recorder_.add("/autopilot/command", signals.command, {}, Recorder::When::kWhenTold);
   }
+  recorder_.announce<LoggedRequest>(kRequestTopic);
   recorder_.add("/autopilot/flight", signals.flight, slow);
   recorder_.add("/autopilot/trajectory", signals.trajectory, slow);
   recorder_.add("/autopilot/setpoint", signals.setpoint, slow);
@@ -56,6 +58,24 @@ void FlightLog::add_topics(const LoadedScenario& loaded) {
   autopilot::for_each_slot([&](const auto& slot) {
     probes_.watch(slot.name, (loaded.autopilot.*slot.config).kind, (sources_.autopilot.*slot.module)());
   });
+}
+
+void FlightLog::follow(Operator& asks) {
+  asks.on_request([this](const autopilot::Request& asked, const autopilot::RequestOutcome& outcome,
+                         Time now) { request(asked, outcome, now); });
+  asks.on_swap([this](const std::string& slot, const std::string& kind, const autopilot::Module& module) {
+    watch(slot, kind, module);
+  });
+}
+
+void FlightLog::step(Time now) {
+  recorder_.write(sensors_, now);
+  recorder_.write(command_, now);
+}
+
+void FlightLog::request(const autopilot::Request& request, const autopilot::RequestOutcome& outcome,
+                        Time now) {
+  recorder_.write_once(kRequestTopic, logged(request, outcome), now);
 }
 
 void FlightLog::observe(Time now, bool stepped) {

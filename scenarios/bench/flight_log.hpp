@@ -9,6 +9,7 @@
 #include "autopilot/autopilot.hpp"
 #include "hil_bridge/serial_fcu/link_statistics.hpp"
 #include "hil_bridge/translate/telemetry.hpp"
+#include "scenarios/bench/operator.hpp"
 #include "scenarios/bench/probe_recorder.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/record/recorder.hpp"
@@ -41,6 +42,13 @@ class FlightLog {
     recorder_.add("/fcu/link", link, kLinkPeriod, Recorder::When::kAlways);
   }
 
+  /// Hears from now on of whatever the operator asks, and of the modules that come by it. The log outlives
+  /// the last of that.
+  void follow(Operator& asks);
+  /// To be called after each step of the autopilot: writes down what it was told and what it answered.
+  void step(Time now);
+  /// To be called whenever something is asked of the autopilot, in the order of that and the steps.
+  void request(const autopilot::Request& request, const autopilot::RequestOutcome& outcome, Time now);
   /// To be called after every tick. @param stepped  the autopilot worked in it
   void observe(Time now, bool stepped);
   void event(const RunEvent& event, Time now) { recorder_.write_once("/bench/event", event, now); }
@@ -57,6 +65,8 @@ class FlightLog {
   Sources sources_;
   Recorder recorder_;
   ProbeRecorder probes_;
+  Recorder::Channel sensors_;
+  Recorder::Channel command_;
   std::uint32_t recorded_route_ = 0;
 };
 

@@ -101,8 +101,8 @@ void LiveBench::wire_log(const LiveOptions& options) {
                                   loaded_, FlightLog::Sources{*autopilot_, realtime_->telemetry(), nullptr});
   log_->add(link_health_);
   log_->recorder().add("/bench/timing", realtime_->timing(), kTimingPeriod, Recorder::When::kAlways);
-  operator_->on_swap([this](const std::string& slot, const std::string& kind,
-                            const autopilot::Module& module) { log_->watch(slot, kind, module); });
+  realtime_->on_step([this](Time now) { log_->step(now); });
+  log_->follow(*operator_);
 }
 
 LiveBench::Time LiveBench::pass() {
@@ -197,11 +197,8 @@ void LiveBench::follow_script(Time now) {
 /// A request is granted at once or never; this one is repeated until the pilot lets it.
 void LiveBench::ask_for_take_off(Time now) {
   if (took_off_ || !scenario_.pilot.automatic) return;
-  const autopilot::RequestOutcome outcome = autopilot_->request(autopilot::TakeOff{});
-  waits_for_pilot_ = !outcome.accepted;
-  if (!outcome.accepted) return;
-  took_off_ = true;
-  judge_->event(now, "request", "take_off");
+  took_off_ = operator_->ask_until_granted(autopilot::TakeOff{}, "take_off", now);
+  waits_for_pilot_ = !took_off_;
 }
 
 void LiveBench::publish_events(Time now) {

@@ -95,8 +95,20 @@ void Operator::swap_module(const EventConfig& event, Time now) {
   });
 }
 
+autopilot::RequestOutcome Operator::put(const autopilot::Request& request, Time now) {
+  autopilot::RequestOutcome outcome = pilot_.request(request);
+  if (on_request_) on_request_(request, outcome, now);
+  return outcome;
+}
+
+bool Operator::ask_until_granted(const autopilot::Request& request, const std::string& what, Time now) {
+  const bool accepted = put(request, now).accepted;
+  if (accepted) judge_.event(now, "request", what);
+  return accepted;
+}
+
 bool Operator::ask(const autopilot::Request& request, const std::string& what, Time now) {
-  const autopilot::RequestOutcome outcome = pilot_.request(request);
+  const autopilot::RequestOutcome outcome = put(request, now);
   judge_.event(now, outcome.accepted ? "request" : std::string(kRefusedEvent),
                outcome.accepted ? what : what + ": " + outcome.reason);
   for (std::size_t i = 0; i < outcome.waypoints.size(); ++i)

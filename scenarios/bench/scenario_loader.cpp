@@ -19,6 +19,9 @@ namespace {
 
 constexpr const char* kVehicleFiles[] = {kVehicleFile, "sensors.toml", "fcu.toml", "autopilot.toml"};
 
+/// Under which the effective configuration tells the vehicle's folder: its files are merged into the rest.
+constexpr const char* kVehicleFolder = "vehicle_folder";
+
 bool is_there(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::exists(path, ignored);
@@ -113,6 +116,15 @@ void note_places(const toml::node& node, const std::string& path, LoadedScenario
   }
 }
 
+/// Notes what the configuration is as a whole.
+void note_configuration(const toml::table& root, const std::string& vehicle_folder, LoadedScenario& loaded) {
+  note_places(root, "", loaded);
+  loaded.effective_config =
+      print_toml(toml::table{{kVehicleFolder, vehicle_folder}}) + "\n" + print_toml(root);
+  loaded.digest = digest(loaded.effective_config);
+  loaded.scenario.vehicle_folder = vehicle_folder;
+}
+
 /// `vehicle` names the folder in a scenario and is a table in the folder's files: here it is the table. It is
 /// taken out of `root`, not copied, because a copy of a node forgets its place in the file.
 std::vector<std::string> read_scenario(toml::table& root, Scenario& scenario) {
@@ -174,12 +186,8 @@ LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides&
   if (!scenario["vehicle"].is_table()) scenario.erase("vehicle");
   merge_toml(root, std::move(scenario));
   apply_overrides(root, overrides);
-  note_places(root, "", loaded);
+  note_configuration(root, folder.name, loaded);
   if (!folder.place.empty()) loaded.places.insert_or_assign("vehicle", folder.place);
-  loaded.effective_config =
-      print_toml(toml::table{{"vehicle_folder", folder.name}}) + "\n" + print_toml(root);
-  loaded.digest = digest(loaded.effective_config);
-  loaded.scenario.vehicle_folder = folder.name;
   loaded.field_folders = folders_for(file, root.get("field"));
   std::vector<std::string> findings = read_scenario(root, loaded.scenario);
   loaded.field_path = find_field(loaded.scenario.field, loaded.field_folders);
@@ -189,6 +197,27 @@ LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides&
   findings.insert(findings.end(), more.begin(), more.end());
   const std::vector<std::string> loops = loop_findings(loaded);
   findings.insert(findings.end(), loops.begin(), loops.end());
+  if (!findings.empty()) throw ConfigError(findings);
+  return loaded;
+}
+
+LoadedScenario load_flown(const std::filesystem::path& log, const std::string& configuration,
+                          const Overrides& overrides, const autopilot::Modules& modules) {
+  LoadedScenario loaded;
+  loaded.file = log;
+  loaded.name = log.stem().string();
+  toml::table root = parse_toml(configuration, log.string() + ", its configuration");
+  const std::string folder = root[kVehicleFolder].value_or(std::string());
+  root.erase(kVehicleFolder);
+  for (const auto& [path, text] : overrides.settings) {
+    if (path == "vehicle")
+      throw ConfigError("--set vehicle=" + text + ": the vehicle of a flight that was flown is the log's");
+  }
+  apply_overrides(root, overrides);
+  note_configuration(root, folder, loaded);
+  std::vector<std::string> findings = read_scenario(root, loaded.scenario);
+  const std::vector<std::string> more = load_autopilot(root, modules, loaded);
+  findings.insert(findings.end(), more.begin(), more.end());
   if (!findings.empty()) throw ConfigError(findings);
   return loaded;
 }

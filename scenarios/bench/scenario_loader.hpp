@@ -66,4 +66,12 @@ struct LoadedScenario {
 LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides& overrides,
                              const autopilot::Modules& modules);
 
+/// The scenario of a flight that was flown, out of the configuration in its log: only what an autopilot needs
+/// is checked, for the world is not made anew.
+/// @param log            its file, for names and messages
+/// @param configuration  as `effective_config`; the same one comes out when nothing is overridden
+/// @throws ConfigError with one line for each finding
+LoadedScenario load_flown(const std::filesystem::path& log, const std::string& configuration,
+                          const Overrides& overrides, const autopilot::Modules& modules);
+
 }  // namespace ironbird::scenarios

@@ -6,6 +6,8 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "hil_bridge/executive/test/live_guard.hpp"
 #include "hil_bridge/virtual_fcu/virtual_fcu.hpp"
@@ -160,6 +162,20 @@ TEST_F(LockstepTest, AnswersEveryFrameOfABurstInOrder) {
   tick();
   EXPECT_FALSE(lockstep.stepped());
   EXPECT_EQ(fcu.answered().size(), 4U) << "nothing is answered twice";
+}
+
+TEST_F(LockstepTest, TellsOfEveryStepOfABurstWithWhatItComputed) {
+  std::vector<std::pair<Time, std::size_t>> told;  // when, and how many commands had left
+  std::vector<Time> stamps;
+  lockstep.on_step([&](Time now) {
+    told.emplace_back(now, fcu.answered().size());
+    stamps.push_back(pilot->signals().estimate.stamp);
+  });
+  for (const int k : {1, 2, 3}) fcu.line.push_back({4 * kTick, imu_of_tick(static_cast<std::uint64_t>(k))});
+  tick(5);
+  EXPECT_EQ(told,
+            (std::vector<std::pair<Time, std::size_t>>{{4 * kTick, 1}, {4 * kTick, 2}, {4 * kTick, 3}}));
+  EXPECT_EQ(stamps, (std::vector<Time>{kTick, 2 * kTick, 3 * kTick}));
 }
 
 TEST_F(LockstepTest, StepsForASilentCommandButSendsNothing) {
