@@ -40,7 +40,8 @@ Replay::Replay(const RecordedFlight& flight, const LoadedScenario& loaded, const
     : flight_(flight),
       options_(std::move(options)),
       window_(options_.window.value_or(usual_window(flight))),
-      autopilot_(make_autopilot(loaded, modules)) {
+      autopilot_(make_autopilot(loaded, modules)),
+      next_progress_(kProgressPeriod) {
   if (!flight.estimates.empty()) comparison_.emplace(flight.estimates.front(), window_);
   if (!options_.log_file.empty()) wire_log(loaded);
 }
@@ -55,35 +56,60 @@ void Replay::wire_log(const LoadedScenario& loaded) {
 }
 
 ReplayResult Replay::run() {
-  ReplayResult result;
-  result.window = window_;
   hil_bridge::SensorFrameBuilder builder;
-  Time next_progress = kProgressPeriod;
   for (const hil_bridge::Arrival& arrival : flight_.messages) {
     telemetry_.take(arrival.message);
     const autopilot::SensorFrame* const frame = builder.push(arrival);
     if (frame == nullptr) continue;
-    autopilot_->step(*frame);
-    watch_health();
-    if (log_) write_recorded(*frame, arrival.when);
-    if (comparison_) {
-      for (const EstimateDifference& difference : comparison_->observe(autopilot_->signals().estimate)) {
-        if (log_) log_->recorder().write_once("/compared/difference", difference, arrival.when);
-      }
-    }
-    if (log_) log_->observe(arrival.when, true);
-    if (arrival.when < next_progress) continue;
-    next_progress += kProgressPeriod;
-    if (options_.on_progress && !options_.on_progress(arrival.when)) {
-      result.interrupted = true;
-      break;
+    step(*frame, arrival.when);
+    if (!goes_on(arrival.when)) break;
+  }
+  return finish();
+}
+
+void Replay::step(const autopilot::SensorFrame& frame, Time now) {
+  autopilot_->step(frame);
+  watch_health();
+  if (log_) {
+    log_->step(now);
+    write_recorded(frame, now);
+  }
+  if (comparison_) {
+    for (const EstimateDifference& difference : comparison_->observe(autopilot_->signals().estimate)) {
+      if (log_) log_->recorder().write_once("/compared/difference", difference, now);
     }
   }
+  if (log_) log_->observe(now, true);
+}
+
+autopilot::RequestOutcome Replay::request(const autopilot::Request& request, Time now) {
+  autopilot::RequestOutcome outcome = autopilot_->request(request);
+  if (!log_) return outcome;
+  log_->request(request, outcome, now);
+  const auto* swap = std::get_if<autopilot::SwapModule>(&request);
+  if (swap == nullptr || !outcome.accepted) return outcome;
+  autopilot::for_each_slot([&](const auto& slot) {
+    if (swap->slot == slot.name) log_->watch(swap->slot, swap->kind, (*autopilot_.*slot.module)());
+  });
+  return outcome;
+}
+
+bool Replay::goes_on(Time now) {
+  if (now < next_progress_) return true;
+  next_progress_ += kProgressPeriod;
+  interrupted_ = options_.on_progress && !options_.on_progress(now);
+  return !interrupted_;
+}
+
+ReplayResult Replay::finish() {
   if (log_) log_->close();
+  ReplayResult result;
+  result.window = window_;
   if (comparison_) result.metrics = comparison_->results();
   result.remarks = findings();
   if (ready_) result.ready = to_seconds(*ready_);
   result.lost_at_end = lost_;
+  result.interrupted = interrupted_;
   return result;
 }
 

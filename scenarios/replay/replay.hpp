@@ -12,6 +12,7 @@
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/replay/comparison.hpp"
 #include "scenarios/replay/recorded_flight.hpp"
+#include "scenarios/requirements/check.hpp"
 
 namespace ironbird::scenarios {
 
@@ -28,6 +29,7 @@ struct ReplayResult {
   Interval window;
   std::vector<std::string> remarks;  ///< what was not as it should be, a line each
   std::optional<double> ready;       ///< s, when there was an estimate; none: never
+  std::optional<CheckResult> same;   ///< the autopilot did what it did then; none: it was not to
   bool lost_at_end = false;
   bool interrupted = false;
 };
@@ -49,7 +51,22 @@ class Replay {
   /// From the first message to the last. Called once.
   ReplayResult run();
 
+  // Piece by piece, for flights that hold other things than messages.
+
+  /// One frame of the flight, and what was recorded up to `now`.
+  void step(const autopilot::SensorFrame& frame, hil_bridge::Time now);
+  /// What was asked of the autopilot between two frames.
+  autopilot::RequestOutcome request(const autopilot::Request& request, hil_bridge::Time now);
+  /// Whoever waits for it has not had enough. To be asked after each frame.
+  bool goes_on(hil_bridge::Time now);
+  /// What came of it. Called once, last.
+  ReplayResult finish();
+
   const autopilot::Autopilot& autopilot() const { return *autopilot_; }
+  /// What the log shows of the unit.
+  hil_bridge::Telemetry& telemetry() { return telemetry_; }
+  /// Null: none is written.
+  FlightLog* log() { return log_.get(); }
 
  private:
   void wire_log(const LoadedScenario& loaded);
@@ -68,8 +85,10 @@ class Replay {
   std::size_t next_attitude_ = 0;
   std::size_t next_position_ = 0;
   std::optional<hil_bridge::Time> ready_;  // when there was an estimate
+  hil_bridge::Time next_progress_{};
   int losses_ = 0;
   bool lost_ = false;
+  bool interrupted_ = false;
 };
 
 }  // namespace ironbird::scenarios

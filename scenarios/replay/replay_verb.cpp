@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,10 +20,7 @@
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/config/config_error.hpp"
-#include "scenarios/config/file_search.hpp"
-#include "scenarios/replay/magnetic_field.hpp"
-#include "scenarios/replay/px4_flight.hpp"
-#include "scenarios/replay/replay.hpp"
+#include "scenarios/replay/replay_sources.hpp"
 #include "scenarios/replay/replay_verdict.hpp"
 #include "scenarios/report/report.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
@@ -34,19 +31,12 @@ namespace {
 
 using hil_bridge::Time;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr const char* kUsualScenario = "scenarios/replay/recorded_flight.toml";
-constexpr int kUnnamed = -1;
-
 struct ReplayArguments {
-  std::string flight;
+  FlightArguments flight;
   std::string scenario;
   std::string vehicle;
   std::vector<std::string> settings;
-  int mag = kUnnamed;
-  std::string declination;  // deg
   std::string window;
-  double gnss_delay = -1.0;  // s
   std::vector<std::string> bounds;
   std::vector<std::string> compare;
   std::string out = "out";
@@ -70,32 +60,6 @@ std::optional<Interval> window_of(const std::string& text) {
   if (!begin || !end || *begin >= *end || std::abs(*begin) > kMost || std::abs(*end) > kMost)
     throw ConfigError("--window " + text + ": must be BEGIN:END in seconds, for example 4.8:76.1");
   return Interval{from_seconds(*begin), from_seconds(*end)};
-}
-
-/// The declination to fly with, rad, and where it is from.
-struct Declination {
-  double angle = 0.0;
-  std::string source;
-};
-
-Declination declination_of(const ReplayArguments& arguments, const Px4Flight& px4,
-                           std::vector<std::string>& remarks) {
-  if (!arguments.declination.empty()) {
-    const auto named = number_of(arguments.declination);
-    if (!named || std::abs(*named) > 180.0)
-      throw ConfigError("--declination " + arguments.declination +
-                        ": must be an angle in degrees, east positive");
-    return {*named / kDegrees, "as named"};
-  }
-  if (!px4.first_fix) return {0.0, "0, for there is no place to ask for"};
-  if (!px4.unix_time)
-    remarks.emplace_back("its fixes do not tell the date: the declination is that of the newest model");
-  const MagneticField field = px4.field_there();
-  const std::string edition = std::to_string(field.edition);
-  if (!field.current)
-    remarks.push_back(
-        "no World Magnetic Model that is known is meant for its date: the declination is that of " + edition);
-  return {field.declination, "World Magnetic Model " + edition + ", meant for the five years from then"};
 }
 
 /// One of the estimators, or sets of parameters, that a flight is fed to.
@@ -133,32 +97,21 @@ std::vector<Variant> variants_of(const ReplayArguments& arguments) {
   return variants;
 }
 
-LoadedScenario load(const ReplayArguments& arguments, const Variant& variant, const Declination& declination,
-                    const autopilot::Modules& modules) {
+PilotChoice choice_of(const ReplayArguments& arguments, const Variant& variant) {
   std::vector<std::string> wanted = arguments.settings;
   wanted.insert(wanted.end(), variant.settings.begin(), variant.settings.end());
-  std::vector<std::pair<std::string, std::string>> settings;
-  if (!arguments.vehicle.empty()) settings.emplace_back("vehicle", arguments.vehicle);
-  settings.emplace_back("environment.magnetic_field.declination",
-                        std::to_string(declination.angle * kDegrees) + " deg");
-  for (auto& setting : split_settings(wanted)) settings.push_back(std::move(setting));
-  std::filesystem::path file = variant.scenario;
-  if (file.empty()) file = arguments.scenario;
-  if (file.empty()) file = find_named(kUsualScenario, search_folders(kUsualScenario));
-  return load_scenario(file, {settings, std::nullopt}, modules);
+  PilotChoice choice{variant.scenario, {}};
+  if (choice.scenario.empty()) choice.scenario = arguments.scenario;
+  if (!arguments.vehicle.empty()) choice.settings.emplace_back("vehicle", arguments.vehicle);
+  for (auto& setting : split_settings(wanted)) choice.settings.push_back(std::move(setting));
+  return choice;
 }
 
-void tell_flight(const Px4Flight& px4, const Declination& declination, const Interval& window) {
-  std::fprintf(stderr, "%s, %.1f s of IMU samples\n", px4.flight.what.c_str(), to_seconds(px4.flight.end));
-  for (const MagCandidate& mag : px4.mags) {
-    std::fprintf(stderr, "  magnetometer %d%s: %.1f uT, spread %.1f %%, off the earth's field by %.1f %%\n",
-                 mag.instance, px4.mag == mag.instance ? " (taken)" : "", 1e6 * mag.strength,
-                 1e2 * mag.spread, 1e2 * mag.misfit);
-  }
-  std::fprintf(stderr,
-               "  declination %+.2f deg (%s); fixes %.0f ms old on arrival; compared from %.1f to %.1f s\n",
-               declination.angle * kDegrees, declination.source.c_str(), 1e3 * px4.gnss_delay,
-               to_seconds(window.begin), to_seconds(window.end));
+/// A run's log is called as all others are, its folder as its scenario: which must not be written into.
+std::string name_of_flight(const std::filesystem::path& file) {
+  const std::string name = file.stem().string();
+  const std::string folder = file.parent_path().filename().string();
+  return name == "flight" && !folder.empty() ? folder + "_replayed" : name;
 }
 
 /// What came of one variant.
@@ -192,30 +145,27 @@ class ReplayWork {
       : arguments_(arguments),
         modules_(modules),
         window_(window_of(arguments.window)),
-        name_(std::filesystem::path(arguments.flight).stem().string()),
+        name_(name_of_flight(arguments.flight.flight)),
         folder_(std::filesystem::path(arguments.out) / name_) {
     for (const std::string& bound : arguments.bounds) bounds_.push_back(parse_replay_bound(bound));
-    Px4Choice choice;
-    if (arguments.mag != kUnnamed) choice.mag = arguments.mag;
-    if (arguments.gnss_delay >= 0.0) choice.gnss_delay = arguments.gnss_delay;
-    px4_ = read_px4_flight(UlogFile::read(arguments.flight), arguments.flight, choice);
-    declination_ = declination_of(arguments, px4_, px4_.flight.remarks);
+    source_ = ReplaySource::open(arguments.flight);
   }
 
   Replayed run(const Variant& variant, RunListener& listener) const {
-    const LoadedScenario loaded = load(arguments_, variant, declination_, modules_);
+    const LoadedScenario loaded = source_->load(choice_of(arguments_, variant), modules_);
     const std::string name = variant.name.empty() ? name_ : name_ + ", " + variant.name;
     Replayed done{variant, variant.name.empty() ? folder_ : folder_ / variant.name, {}, {}};
+    require_other_file(done.folder / "flight.mcap");
     const RunFolder held(done.folder);
     ReplayOptions options;
     options.window = window_;
     if (!arguments_.no_log) options.log_file = done.folder / "flight.mcap";
-    const double length = to_seconds(px4_.flight.end);
+    const double length = to_seconds(source_->flight().end);
     options.on_progress = [&](Time now) {
       listener.progress({name, to_seconds(now), length, "replayed"});
       return !interrupt_requested();
     };
-    done.result = Replay(px4_.flight, loaded, modules_, options).run();
+    done.result = source_->replay(loaded, modules_, options);
     done.verdict = judge_replay(done.result,
                                 {name, loaded.scenario.title, loaded.scenario.seed, loaded.digest}, bounds_);
     write_verdict(done.verdict, done.folder / "verdict.json");
@@ -233,19 +183,33 @@ class ReplayWork {
   }
 
   void tell(const std::vector<Replayed>& all) const {
-    tell_flight(px4_, declination_, all.front().result.window);
+    for (const std::string& line : source_->about()) std::fprintf(stderr, "%s\n", line.c_str());
+    const Interval& window = all.front().result.window;
+    std::fprintf(stderr, "  compared from %.1f to %.1f s with %s\n", to_seconds(window.begin),
+                 to_seconds(window.end), compared_with().c_str());
     tell_figures(all);
   }
 
  private:
+  /// The log of a replay must not take the place of what it replays.
+  void require_other_file(const std::filesystem::path& log) const {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(log, arguments_.flight.flight, ignored))
+      throw ConfigError(log.string() + ": is the log to be replayed; name another folder with --out");
+  }
+
+  std::string compared_with() const {
+    const auto& estimates = source_->flight().estimates;
+    return estimates.empty() ? "nothing: no estimate was recorded" : estimates.front().name;
+  }
+
   const ReplayArguments& arguments_;
   const autopilot::Modules& modules_;
   std::optional<Interval> window_;
   std::string name_;
   std::filesystem::path folder_;
   std::vector<ReplayBound> bounds_;
-  Px4Flight px4_;
-  Declination declination_;
+  std::unique_ptr<ReplaySource> source_;
 };
 
 /// A failure outweighs what is inconclusive.
@@ -282,7 +246,11 @@ Verb replay_verb() {
   return {
       "replay", "feed a recorded flight to the estimators", [](VerbOptions& options) {
         auto arguments = std::make_shared<ReplayArguments>();
-        options.option("flight", arguments->flight, "log of a PX4 autopilot, FLIGHT.ulg").required();
+        FlightArguments& flight = arguments->flight;
+        options
+            .option("flight", flight.flight,
+                    "log of a PX4 autopilot, FLIGHT.ulg, or of a run of ours, flight.mcap")
+            .required();
         options.option("--vehicle", arguments->vehicle, "folder of the vehicle whose autopilot stands in");
         options.option("--scenario", arguments->scenario,
                        "which autopilot, with which parameters; its flight is not flown");
@@ -290,16 +258,16 @@ Verb replay_verb() {
             .one_word_each()
             .called("PATH=VALUE");
         options
-            .option("--mag", arguments->mag,
+            .option("--mag", flight.mag,
                     "instance of the magnetometer; else the one that fits the earth's field best")
             .within(0, 255);
-        options.option("--declination", arguments->declination,
+        options.option("--declination", flight.declination,
                        "deg, east positive; else by the World Magnetic Model");
         options.option(
             "--window", arguments->window,
             "what is compared, BEGIN:END in seconds; else the flight without take-off and landing");
         options
-            .option("--gnss-delay", arguments->gnss_delay,
+            .option("--gnss-delay", flight.gnss_delay,
                     "age of a fix on arrival, s; else as the log's parameters say")
             .within(0.0, 1.0);
         options.option("--at-most", arguments->bounds, "a figure that must not be greater; may be repeated")
@@ -316,6 +284,7 @@ Verb replay_verb() {
         options.footer(
             "Examples:\n"
             "  ironbird replay flight.ulg\n"
+            "  ironbird replay out/three_waypoints/flight.mcap --out again\n"
             "  ironbird replay flight.ulg --set autopilot.estimator.kind=error_state\n"
             "  ironbird replay flight.ulg --compare ekf error_state\n"
             "  ironbird replay flight.ulg --mag 1 --window 5:60 --at-most horizontal_difference_rms_m=0.25");

@@ -106,8 +106,13 @@ Verdict judge_replay(const ReplayResult& result, const RunIdentity& run,
   verdict.run = run;
   verdict.metrics = result.metrics;
   verdict.warnings = result.remarks;
-  verdict.checks.push_back(check_of_health(result));
-  verdict.checks.push_back(check_of_share(result));
+  // A flight in which the estimate was lost is flown again as it was.
+  if (result.same) {
+    verdict.checks.push_back(*result.same);
+  } else {
+    verdict.checks.push_back(check_of_health(result));
+    verdict.checks.push_back(check_of_share(result));
+  }
   for (const ReplayBound& bound : bounds) verdict.checks.push_back(check_of(bound, result));
   RunFlaws flaws;
   if (result.interrupted) flaws.broken_promises.emplace_back("the replay was interrupted");
