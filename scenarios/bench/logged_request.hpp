@@ -51,8 +51,7 @@ constexpr std::array<std::pair<RequestKind, std::string_view>, 14> enumerators(R
 enum class SettingType : std::uint8_t { kTruth, kWhole, kNumber };
 
 constexpr std::array<std::pair<SettingType, std::string_view>, 3> enumerators(SettingType) {
-  return {
-      {{SettingType::kTruth, "truth"}, {SettingType::kWhole, "whole"}, {SettingType::kNumber, "number"}}};
+  return {{{SettingType::kTruth, "truth"}, {SettingType::kWhole, "whole"}, {SettingType::kNumber, "number"}}};
 }
 
 /// A parameter and the value that it was to have.

@@ -27,10 +27,10 @@ std::string seconds_text(Time time) {
 
 }  // namespace
 
-Interval usual_window(const RecordedFlight& flight) {
-  const Interval whole{Time::zero(), flight.end};
+Interval usual_window(const RecordedFlight& flight, Time start) {
+  const Interval whole{start, flight.end};
   if (flight.airborne.empty()) return whole;
-  const Interval inside{flight.airborne.front().begin + kAfterTakeOff,
+  const Interval inside{std::max(flight.airborne.front().begin, start) + kAfterTakeOff,
                         flight.airborne.back().end - kBeforeLanding};
   return inside.begin < inside.end ? inside : whole;
 }
@@ -39,7 +39,7 @@ Replay::Replay(const RecordedFlight& flight, const LoadedScenario& loaded, const
                ReplayOptions options)
     : flight_(flight),
       options_(std::move(options)),
-      window_(options_.window.value_or(usual_window(flight))),
+      window_(options_.window.value_or(usual_window(flight, options_.start))),
       autopilot_(make_autopilot(loaded, modules)),
       next_progress_(kProgressPeriod) {
   if (!flight.estimates.empty()) comparison_.emplace(flight.estimates.front(), window_);
@@ -59,6 +59,7 @@ ReplayResult Replay::run() {
   hil_bridge::SensorFrameBuilder builder;
   for (const hil_bridge::Arrival& arrival : flight_.messages) {
     telemetry_.take(arrival.message);
+    if (arrival.when < options_.start) continue;
     const autopilot::SensorFrame* const frame = builder.push(arrival);
     if (frame == nullptr) continue;
     step(*frame, arrival.when);
@@ -139,9 +140,20 @@ void Replay::write_recorded(const autopilot::SensorFrame& frame, Time now) {
 void Replay::watch_health() {
   const autopilot::StateEstimate& estimate = autopilot_->signals().estimate;
   if (!ready_ && autopilot::is_usable(estimate.health)) ready_ = estimate.stamp;
+  note_doubts(estimate);
   const bool lost = estimate.health == autopilot::Health::kLost;
   if (lost && !lost_) ++losses_;
   lost_ = lost;
+}
+
+/// What the filter says of itself, and for how long.
+void Replay::note_doubts(const autopilot::StateEstimate& estimate) {
+  const Time passed = seen_ ? estimate.stamp - *seen_ : Time::zero();
+  seen_ = estimate.stamp;
+  if (!autopilot::is_usable(estimate.health)) return;
+  if (estimate.health == autopilot::Health::kDegraded) degraded_ += passed;
+  if (estimate.position_doubtful) doubtful_ += passed;
+  if (!estimate.position_known) unknown_ += passed;
 }
 
 std::vector<std::string> Replay::findings() const {
@@ -150,6 +162,12 @@ std::vector<std::string> Replay::findings() const {
     all.emplace_back("the estimator never started: it needs rates, forces, field, pressure and fixes");
   } else if (*ready_ > window_.begin) {
     all.push_back("the estimator was ready after " + seconds_text(*ready_) + ", in the window that counts");
+  }
+  const std::pair<const char*, Time> doubts[] = {{"the estimate was degraded for ", degraded_},
+                                                 {"the estimator doubted its position for ", doubtful_},
+                                                 {"the estimator did not know its position for ", unknown_}};
+  for (const auto& [what, how_long] : doubts) {
+    if (how_long > Time::zero()) all.push_back(what + seconds_text(how_long));
   }
   if (losses_ > 0)
     all.push_back("the estimate was lost " + std::to_string(losses_) + (losses_ == 1 ? " time" : " times"));

@@ -20,6 +20,7 @@ namespace ironbird::scenarios {
 struct ReplayOptions {
   std::filesystem::path log_file;  ///< empty: no log
   std::optional<Interval> window;  ///< what counts; none: airborne, without take-off and landing
+  hil_bridge::Time start{};        ///< what came before is left out, as if the recorder had been started then
   std::function<bool(hil_bridge::Time)> on_progress;  ///< asked every second of the flight; false: stop
 };
 
@@ -36,7 +37,8 @@ struct ReplayResult {
 
 /// The window that counts unless another is named: from three seconds after the first take-off to a second
 /// before the last landing; the whole flight when nobody told of either.
-Interval usual_window(const RecordedFlight& flight);
+/// @param start  of the replay, three seconds after which nothing counts yet either
+Interval usual_window(const RecordedFlight& flight, hil_bridge::Time start = {});
 
 /// Feeds what was recorded in a flight to an autopilot, through the same door as a unit's messages, and holds
 /// its estimate against what was estimated then. What it commands goes nowhere.
@@ -73,6 +75,7 @@ class Replay {
   /// What was recorded, in the frame of the estimate that is made now.
   void write_recorded(const autopilot::SensorFrame& frame, hil_bridge::Time now);
   void watch_health();
+  void note_doubts(const autopilot::StateEstimate& estimate);
   std::vector<std::string> findings() const;
 
   const RecordedFlight& flight_;
@@ -86,6 +89,10 @@ class Replay {
   std::size_t next_position_ = 0;
   std::optional<hil_bridge::Time> ready_;  // when there was an estimate
   hil_bridge::Time next_progress_{};
+  std::optional<hil_bridge::Time> seen_;  // the newest estimate
+  hil_bridge::Time degraded_{};
+  hil_bridge::Time doubtful_{};
+  hil_bridge::Time unknown_{};
   int losses_ = 0;
   bool lost_ = false;
   bool interrupted_ = false;

@@ -115,11 +115,12 @@ class RunSource final : public ReplaySource {
       : file_(arguments.flight), log_(RunLog::read(arguments.flight)) {
     const std::pair<const char*, bool> given[] = {{"--mag", arguments.mag >= 0},
                                                   {"--declination", !arguments.declination.empty()},
-                                                  {"--gnss-delay", arguments.gnss_delay >= 0.0}};
+                                                  {"--gnss-delay", arguments.gnss_delay >= 0.0},
+                                                  {"--start", arguments.start > 0.0}};
     for (const auto& [option, is_given] : given) {
       if (is_given)
-        throw ConfigError(std::string(option) + ": is for logs of PX4; " + arguments.flight +
-                          " holds what its autopilot was told");
+        throw ConfigError(std::string(option) + ": is for flights of others; " + arguments.flight +
+                          " holds what its own autopilot was told, from the beginning");
     }
   }
 

@@ -14,9 +14,10 @@ namespace ironbird::scenarios {
 /// What the command line says of a flight that is to be replayed. No `describe`: CLI11 fills it.
 struct FlightArguments {
   std::string flight;
-  int mag = -1;             ///< instance; -1: not named
-  std::string declination;  ///< deg; empty: not named
+  int mag = -1;              ///< instance; -1: not named
+  std::string declination;   ///< deg; empty: not named
   double gnss_delay = -1.0;  ///< s; negative: not named
+  double start = 0.0;        ///< s; what was recorded before is left out
 };
 
 /// Which autopilot stands in. No `describe`: neither of it is a value of a file.

@@ -159,6 +159,7 @@ class ReplayWork {
     const RunFolder held(done.folder);
     ReplayOptions options;
     options.window = window_;
+    options.start = from_seconds(arguments_.flight.start);
     if (!arguments_.no_log) options.log_file = done.folder / "flight.mcap";
     const double length = to_seconds(source_->flight().end);
     options.on_progress = [&](Time now) {
@@ -266,6 +267,10 @@ Verb replay_verb() {
         options.option(
             "--window", arguments->window,
             "what is compared, BEGIN:END in seconds; else the flight without take-off and landing");
+        options
+            .option("--start", flight.start,
+                    "leave out what was recorded before, s: begins in the air, perhaps")
+            .within(0.0, 1e6);
         options
             .option("--gnss-delay", flight.gnss_delay,
                     "age of a fix on arrival, s; else as the log's parameters say")

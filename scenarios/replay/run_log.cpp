@@ -66,8 +66,8 @@ bool is_mcap(const std::filesystem::path& file) {
   std::array<char, kMcapMagic.size()> head{};
   in.read(head.data(), head.size());
   return in && std::equal(head.begin(), head.end(), kMcapMagic.begin(), [](char read, std::uint8_t magic) {
-    return static_cast<std::uint8_t>(read) == magic;
-  });
+           return static_cast<std::uint8_t>(read) == magic;
+         });
 }
 
 RunLog RunLog::read(const std::filesystem::path& file) {

@@ -20,7 +20,8 @@ class RunLog {
   static RunLog read(const std::filesystem::path& file);
 
   const McapReader& file() const { return *file_; }
-  /// What was recorded beside the frames: truth where there is one, else the estimate of then. Has no messages.
+  /// What was recorded beside the frames: truth where there is one, else the estimate of then. Has no
+  /// messages.
   const RecordedFlight& flight() const { return flight_; }
   /// As `LoadedScenario::effective_config` and its digest.
   const std::string& configuration() const { return configuration_; }

@@ -20,9 +20,13 @@ using hil_bridge::Time;
 
 constexpr std::string_view kCommand = "/autopilot/command";
 /// In the order in which a tick computes them: of two that differ in one tick the earlier is the cause.
-constexpr std::array<std::string_view, 7> kOrder{
-    kRequestTopic,         "/autopilot/flight",     "/autopilot/estimate", "/autopilot/route",
-    "/autopilot/trajectory", "/autopilot/setpoint", kCommand};
+constexpr std::array<std::string_view, 7> kOrder{kRequestTopic,
+                                                 "/autopilot/flight",
+                                                 "/autopilot/estimate",
+                                                 "/autopilot/route",
+                                                 "/autopilot/trajectory",
+                                                 "/autopilot/setpoint",
+                                                 kCommand};
 
 Time time_of(const McapMessage& message) {
   return Time(static_cast<std::int64_t>(message.log_time));
@@ -204,8 +208,9 @@ std::vector<std::string> RunReplay::remarks() const {
                   exact_time(*whole_until_) + ": the disk was too slow, or the file is damaged");
   if (same_configuration_) return all;
   const Watched* first = first_different();
-  all.push_back("the configuration is not the flight's; of what it computes " +
-                (first == nullptr ? "nothing is different" : "some is different, " + difference_text(*first)));
+  all.push_back(
+      "the configuration is not the flight's; of what it computes " +
+      (first == nullptr ? "nothing is different" : "some is different, " + difference_text(*first)));
   return all;
 }
 

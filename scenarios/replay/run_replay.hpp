@@ -19,8 +19,8 @@ namespace ironbird::scenarios {
 /// everything that it computes against what was logged, bit by bit.
 ///
 /// With the configuration of then, and the same program, all of it must come out the same: that is a check of
-/// the result. With another configuration it tells what that autopilot would have made of the same sensors; it
-/// does not fly, so only its estimate means something.
+/// the result. With another configuration it tells what that autopilot would have made of the same sensors;
+/// it does not fly, so only its estimate means something.
 class RunReplay {
  public:
   /// @param log, loaded  outlive this

@@ -1,5 +1,5 @@
-// Any bytes as a sensor frame or a request in a run's log: they are refused in one line, or read; what is read
-// comes out the same when it is written and read again.
+// Any bytes as a sensor frame or a request in a run's log: they are refused in one line, or read; what is
+// read comes out the same when it is written and read again.
 
 #include <algorithm>
 #include <span>

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -113,6 +114,63 @@ TEST(FlightsTest, DoesNotDivergeWithAnyMagnetometer) {
             << flight.file << ' ' << kind << ' ' << mag;
         EXPECT_LE(figure(verdict, "pitch_difference_rms_deg"), 2.0)
             << flight.file << ' ' << kind << ' ' << mag;
+      }
+    }
+  }
+}
+
+const char* const kKinds[] = {"ekf", "error_state"};
+
+std::string choice(const KnownFlight& flight, const char* kind) {
+  return std::string("--mag ") + flight.mag + " --set autopilot.estimator.kind=" + kind;
+}
+
+// A recorder that is switched on in flight: no second at rest, no ground.
+TEST(FlightsTest, StartsAnywhereInTheAir) {
+  IRONBIRD_NEEDS_FLIGHTS();
+  for (const KnownFlight& flight : test::kKnownFlights) {
+    const double end = std::stod(std::string(flight.window).substr(std::string(flight.window).find(':') + 1));
+    for (const char* const kind : kKinds) {
+      for (int start = 5; start < end - 10; start += 9) {
+        const json verdict = replay(flight, choice(flight, kind) + " --declination=" + flight.declination +
+                                                " --start " + std::to_string(start));
+        const std::string which = std::string(flight.file) + ' ' + kind + " from " + std::to_string(start);
+        EXPECT_EQ(verdict["verdict"], "pass") << which;
+        EXPECT_EQ(figure(verdict, "compared_share"), 1.0) << which;
+        EXPECT_LE(figure(verdict, "horizontal_difference_rms_m"), 0.2) << which;
+        EXPECT_LE(figure(verdict, "velocity_difference_rms_mps"), 0.3) << which;
+        EXPECT_LE(figure(verdict, "roll_difference_rms_deg"), 2.0) << which;
+        EXPECT_LE(figure(verdict, "pitch_difference_rms_deg"), 1.0) << which;
+        EXPECT_LE(figure(verdict, "heading_difference_rms_deg"), 10.0) << which;
+      }
+    }
+  }
+}
+
+/// For how long the filter said that its estimate was degraded, s.
+double degraded(const json& verdict) {
+  const std::string said = "the estimate was degraded for ";
+  for (const json& warning : verdict["warnings"]) {
+    const auto text = warning.get<std::string>();
+    if (text.starts_with(said)) return std::stod(text.substr(said.size()));
+  }
+  return 0.0;
+}
+
+// A compass that points elsewhere cannot be followed in a flight that goes anywhere.
+TEST(FlightsTest, SaysSoWhenTheCompassCannotBeRight) {
+  IRONBIRD_NEEDS_FLIGHTS();
+  for (const KnownFlight& flight : test::kKnownFlights) {
+    for (const char* const kind : kKinds) {
+      for (const double off : {30.0, 90.0, 180.0}) {
+        const double declination = std::remainder(std::stod(flight.declination) + off, 360.0);
+        const json verdict =
+            replay(flight, choice(flight, kind) + " --declination=" + std::to_string(declination));
+        const std::string which = std::string(flight.file) + ' ' + kind + " off by " + std::to_string(off);
+        EXPECT_EQ(verdict["verdict"], "pass") << which << ": height and attitude are there, it is not lost";
+        const double horizontal = figure(verdict, "horizontal_difference_rms_m");
+        EXPECT_LE(horizontal, 50.0) << which;
+        EXPECT_TRUE(horizontal < 1.0 || degraded(verdict) > 10.0) << which << ": " << horizontal << " m";
       }
     }
   }

@@ -53,7 +53,9 @@ class RunReplayTest : public ::testing::Test {
   }
 
   /// Twelve seconds of the paper's mission as single records, of which a test may change some.
-  void fly_a_journal() const { fly("paper/three_waypoints", {{"duration", "12"}, {"record.journal", "true"}}); }
+  void fly_a_journal() const {
+    fly("paper/three_waypoints", {{"duration", "12"}, {"record.journal", "true"}});
+  }
 
   ReplayResult replay(const Settings& settings = {}, const std::string& name = "flight",
                       const std::string& again = "") const {
@@ -266,9 +268,10 @@ TEST_F(RunReplayTest, FliesWhatIsLeftOfALogThatWasCut) {
 
 TEST_F(RunReplayTest, RefusesALogWithoutFramesAndSaysHowToGetThem) {
   fly("paper/three_waypoints", {{"duration", "2"}, {"record.frames", "false"}});
-  EXPECT_EQ(refusal(), log() +
-                           ": cannot be flown again: it has no /autopilot/sensors; fly the scenario again, with "
-                           "record.frames = true");
+  EXPECT_EQ(refusal(),
+            log() +
+                ": cannot be flown again: it has no /autopilot/sensors; fly the scenario again, with "
+                "record.frames = true");
 }
 
 TEST_F(RunReplayTest, RefusesAnotherVersionsFrames) {
@@ -279,10 +282,11 @@ TEST_F(RunReplayTest, RefusesAnotherVersionsFrames) {
     changed[at] = 'S';
   ASSERT_GE(count, 1);
   write("changed", changed);
-  EXPECT_THAT(refusal("changed"),
-              AllOf(StartsWith(log("changed") + ": cannot be flown again: its /autopilot/sensors is of another "
-                                                "version of Ironbird"),
-                    HasSubstr("scenario three_waypoints")));
+  EXPECT_THAT(
+      refusal("changed"),
+      AllOf(StartsWith(log("changed") + ": cannot be flown again: its /autopilot/sensors is of another "
+                                        "version of Ironbird"),
+            HasSubstr("scenario three_waypoints")));
 }
 
 TEST_F(RunReplayTest, NamesTheMessageThatIsDamaged) {
