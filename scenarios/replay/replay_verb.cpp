@@ -22,7 +22,7 @@
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/file_search.hpp"
 #include "scenarios/replay/magnetic_field.hpp"
-#include "scenarios/replay/px4_flight.hpp"
+#include "scenarios/replay/opened_flight.hpp"
 #include "scenarios/replay/replay.hpp"
 #include "scenarios/replay/replay_verdict.hpp"
 #include "scenarios/report/report.hpp"
@@ -42,6 +42,7 @@ struct ReplayArguments {
   std::string flight;
   std::string scenario;
   std::string vehicle;
+  std::string data;
   std::vector<std::string> settings;
   int mag = kUnnamed;
   std::string declination;  // deg
@@ -78,7 +79,7 @@ struct Declination {
   std::string source;
 };
 
-Declination declination_of(const ReplayArguments& arguments, const Px4Flight& px4,
+Declination declination_of(const ReplayArguments& arguments, const OpenedFlight& opened,
                            std::vector<std::string>& remarks) {
   if (!arguments.declination.empty()) {
     const auto named = number_of(arguments.declination);
@@ -87,15 +88,30 @@ Declination declination_of(const ReplayArguments& arguments, const Px4Flight& px
                         ": must be an angle in degrees, east positive");
     return {*named / kDegrees, "as named"};
   }
-  if (!px4.first_fix) return {0.0, "0, for there is no place to ask for"};
-  if (!px4.unix_time)
-    remarks.emplace_back("its fixes do not tell the date: the declination is that of the newest model");
-  const MagneticField field = px4.field_there();
-  const std::string edition = std::to_string(field.edition);
-  if (!field.current)
+  if (!opened.field) return {0.0, "0, for there is no place to ask for"};
+  if (!opened.dated)
+    remarks.emplace_back("nothing tells the date: the declination is that of the newest model");
+  const std::string edition = std::to_string(opened.field->edition);
+  if (!opened.field->current)
     remarks.push_back(
         "no World Magnetic Model that is known is meant for its date: the declination is that of " + edition);
-  return {field.declination, "World Magnetic Model " + edition + ", meant for the five years from then"};
+  return {opened.field->declination,
+          "World Magnetic Model " + edition + ", meant for the five years from then"};
+}
+
+constexpr const char* kMapPrefix = "map.";
+
+/// What is said of the flight, and not of the autopilot.
+FlightChoice choice_of(const ReplayArguments& arguments) {
+  FlightChoice choice;
+  if (arguments.mag != kUnnamed) choice.px4.mag = arguments.mag;
+  if (arguments.gnss_delay >= 0.0) choice.px4.gnss_delay = arguments.gnss_delay;
+  choice.data = arguments.data;
+  for (auto& [path, text] : split_settings(arguments.settings)) {
+    if (path.starts_with(kMapPrefix))
+      choice.map_settings.emplace_back(path.substr(std::string(kMapPrefix).size()), text);
+  }
+  return choice;
 }
 
 /// One of the estimators, or sets of parameters, that a flight is fed to.
@@ -141,23 +157,22 @@ LoadedScenario load(const ReplayArguments& arguments, const Variant& variant, co
   if (!arguments.vehicle.empty()) settings.emplace_back("vehicle", arguments.vehicle);
   settings.emplace_back("environment.magnetic_field.declination",
                         std::to_string(declination.angle * kDegrees) + " deg");
-  for (auto& setting : split_settings(wanted)) settings.push_back(std::move(setting));
+  for (auto& setting : split_settings(wanted)) {
+    if (!setting.first.starts_with(kMapPrefix)) settings.push_back(std::move(setting));
+  }
   std::filesystem::path file = variant.scenario;
   if (file.empty()) file = arguments.scenario;
   if (file.empty()) file = find_named(kUsualScenario, search_folders(kUsualScenario));
   return load_scenario(file, {settings, std::nullopt}, modules);
 }
 
-void tell_flight(const Px4Flight& px4, const Declination& declination, const Interval& window) {
-  std::fprintf(stderr, "%s, %.1f s of IMU samples\n", px4.flight.what.c_str(), to_seconds(px4.flight.end));
-  for (const MagCandidate& mag : px4.mags) {
-    std::fprintf(stderr, "  magnetometer %d%s: %.1f uT, spread %.1f %%, off the earth's field by %.1f %%\n",
-                 mag.instance, px4.mag == mag.instance ? " (taken)" : "", 1e6 * mag.strength,
-                 1e2 * mag.spread, 1e2 * mag.misfit);
-  }
+void tell_flight(const OpenedFlight& opened, const Declination& declination, const Interval& window) {
+  std::fprintf(stderr, "%s, %.1f s of IMU samples\n", opened.flight.what.c_str(),
+               to_seconds(opened.flight.end));
+  for (const std::string& line : opened.sensors) std::fprintf(stderr, "  %s\n", line.c_str());
   std::fprintf(stderr,
                "  declination %+.2f deg (%s); fixes %.0f ms old on arrival; compared from %.1f to %.1f s\n",
-               declination.angle * kDegrees, declination.source.c_str(), 1e3 * px4.gnss_delay,
+               declination.angle * kDegrees, declination.source.c_str(), 1e3 * opened.gnss_delay,
                to_seconds(window.begin), to_seconds(window.end));
 }
 
@@ -195,11 +210,8 @@ class ReplayWork {
         name_(std::filesystem::path(arguments.flight).stem().string()),
         folder_(std::filesystem::path(arguments.out) / name_) {
     for (const std::string& bound : arguments.bounds) bounds_.push_back(parse_replay_bound(bound));
-    Px4Choice choice;
-    if (arguments.mag != kUnnamed) choice.mag = arguments.mag;
-    if (arguments.gnss_delay >= 0.0) choice.gnss_delay = arguments.gnss_delay;
-    px4_ = read_px4_flight(UlogFile::read(arguments.flight), arguments.flight, choice);
-    declination_ = declination_of(arguments, px4_, px4_.flight.remarks);
+    opened_ = open_flight(arguments.flight, choice_of(arguments));
+    declination_ = declination_of(arguments, opened_, opened_.flight.remarks);
   }
 
   Replayed run(const Variant& variant, RunListener& listener) const {
@@ -210,12 +222,12 @@ class ReplayWork {
     ReplayOptions options;
     options.window = window_;
     if (!arguments_.no_log) options.log_file = done.folder / "flight.mcap";
-    const double length = to_seconds(px4_.flight.end);
+    const double length = to_seconds(opened_.flight.end);
     options.on_progress = [&](Time now) {
       listener.progress({name, to_seconds(now), length, "replayed"});
       return !interrupt_requested();
     };
-    done.result = Replay(px4_.flight, loaded, modules_, options).run();
+    done.result = Replay(opened_.flight, loaded, modules_, options).run();
     done.verdict = judge_replay(done.result,
                                 {name, loaded.scenario.title, loaded.scenario.seed, loaded.digest}, bounds_);
     write_verdict(done.verdict, done.folder / "verdict.json");
@@ -233,7 +245,7 @@ class ReplayWork {
   }
 
   void tell(const std::vector<Replayed>& all) const {
-    tell_flight(px4_, declination_, all.front().result.window);
+    tell_flight(opened_, declination_, all.front().result.window);
     tell_figures(all);
   }
 
@@ -244,7 +256,7 @@ class ReplayWork {
   std::string name_;
   std::filesystem::path folder_;
   std::vector<ReplayBound> bounds_;
-  Px4Flight px4_;
+  OpenedFlight opened_;
   Declination declination_;
 };
 
@@ -282,11 +294,15 @@ Verb replay_verb() {
   return {
       "replay", "feed a recorded flight to the estimators", [](VerbOptions& options) {
         auto arguments = std::make_shared<ReplayArguments>();
-        options.option("flight", arguments->flight, "log of a PX4 autopilot, FLIGHT.ulg").required();
+        options.option("flight", arguments->flight, "log of a PX4 autopilot, FLIGHT.ulg, or column map of a flight in tables, MAP.toml")
+            .required();
+        options.option("--data", arguments->data, "folder of the tables of a column map; else the map's own");
         options.option("--vehicle", arguments->vehicle, "folder of the vehicle whose autopilot stands in");
         options.option("--scenario", arguments->scenario,
                        "which autopilot, with which parameters; its flight is not flown");
-        options.option("--set", arguments->settings, "changes the scenario; may be repeated")
+        options
+            .option("--set", arguments->settings,
+                    "changes the scenario, with map.PATH the column map; may be repeated")
             .one_word_each()
             .called("PATH=VALUE");
         options
