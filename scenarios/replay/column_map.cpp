@@ -1,6 +1,7 @@
 #include "scenarios/replay/column_map.hpp"
 
 #include <string_view>
+#include <utility>
 
 #include "scenarios/config/include.hpp"
 #include "scenarios/config/toml_reader.hpp"
@@ -28,8 +29,10 @@ ConfigError LoadedColumnMap::error(const std::string& path, const std::string& w
 
 LoadedColumnMap load_column_map(const std::filesystem::path& file,
                                 const std::vector<std::pair<std::string, std::string>>& settings) {
-  LoadedColumnMap loaded{file, load_toml(file), {}};
-  for (const auto& [path, text] : settings) set_value(loaded.table, path, text);
+  toml::table root;
+  root.insert_or_assign("map", load_toml(file));
+  for (const auto& [path, text] : settings) set_value(root, path, text);
+  LoadedColumnMap loaded{file, std::move(*root.get_as<toml::table>("map")), {}};
   read_toml(loaded.table, loaded.map);
   return loaded;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "autopilot/types/linear_algebra.hpp"
 #include "hil_bridge/fcu/fcu.hpp"
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/replay/text_table.hpp"
@@ -146,6 +147,7 @@ struct PositionColumns : TableLayout {
   std::optional<GeodeticColumns> place;
   std::optional<VectorColumns> velocity;
   double velocity_over = 1.0;
+  autopilot::Vector3 p_BA_B = autopilot::Vector3::Zero();
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -155,6 +157,8 @@ struct PositionColumns : TableLayout {
     visit("place", self.place, "", "on the earth, in place of `local`");
     visit("velocity", self.velocity, "", "over ground, m/s; none: the slope of the positions");
     visit("velocity_over", self.velocity_over, "s", "over which time the slope is taken", 1e-3, 60.0);
+    visit("p_BA_B", self.p_BA_B, "m", "where on the body that is whose positions these are, from the IMU",
+          -10.0, 10.0);
   }
 };
 
@@ -171,9 +175,10 @@ struct AttitudeColumns : TableLayout {
   static void describe(Self& self, Visit&& visit) {
     describe_in(self, visit);
     visit("time", self.time, "", "of an attitude");
-    visit("euler", self.euler, "",
-          "columns of the angles about the first, second and third axis of `body`, which turn it from `world` "
-          "in the order third, second, first: roll, pitch, heading");
+    visit(
+        "euler", self.euler, "",
+        "columns of the angles about the first, second and third axis of `body`, which turn it from `world` "
+        "in the order third, second, first: roll, pitch, heading");
     visit("unit", self.unit, "", "of the angles; none: rad");
     visit("quaternion", self.quaternion, "", "columns of w, x, y, z, in place of `euler`");
     visit("body", self.body, "", "where its body's axes point; none: front-right-down");
@@ -264,7 +269,8 @@ struct LoadedColumnMap {
   ConfigError error(const std::string& path, const std::string& what) const;
 };
 
-/// Reads a column map with what it includes. @param settings  paths and texts that are laid over it
+/// Reads a column map with what it includes. @param settings  paths, with `map.` in front, and texts that are
+/// laid over it
 /// @throws ConfigError with every finding
 LoadedColumnMap load_column_map(const std::filesystem::path& file,
                                 const std::vector<std::pair<std::string, std::string>>& settings = {});

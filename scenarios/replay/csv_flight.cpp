@@ -1,7 +1,9 @@
 #include "scenarios/replay/csv_flight.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <string>
 #include <tuple>
@@ -89,14 +91,16 @@ class CsvFlightReader {
 
   void check_made() const {
     const auto refuse_two = [&](bool recorded, bool made, const std::string& name) {
-      if (recorded && made) throw loaded_.error("made." + name, "there is a recorded one: leave out one of them");
+      if (recorded && made)
+        throw loaded_.error("made." + name, "there is a recorded one: leave out one of them");
     };
     refuse_two(map_.gnss.has_value(), map_.made.gnss.has_value(), "gnss");
     refuse_two(map_.barometer.has_value(), map_.made.barometer.has_value(), "barometer");
     refuse_two(map_.magnetometer.has_value(), map_.made.magnetometer.has_value(), "magnetometer");
     const bool has_position = map_.truth && map_.truth->position;
     const bool has_attitude = map_.truth && map_.truth->attitude;
-    if (map_.made.gnss && !has_position) throw loaded_.error("made.gnss", "is made from truth.position: there is none");
+    if (map_.made.gnss && !has_position)
+      throw loaded_.error("made.gnss", "is made from truth.position: there is none");
     if (map_.made.gnss && !map_.made.gnss->p_BA_B.isZero())
       throw loaded_.error("made.gnss.p_BA_B", "must be 0: the antenna is where truth.position is");
     if (map_.made.barometer && !has_position)
@@ -111,8 +115,9 @@ class CsvFlightReader {
     if (!map_.imu) throw loaded_.error("imu", "is missing: without an IMU there is nothing to replay");
     const ImuColumns& imu = *map_.imu;
     if (imu.accelerometer.columns.empty())
-      throw loaded_.error("imu.accelerometer", "is missing: an estimator needs specific forces");
-    if (imu.gyro.columns.empty()) throw loaded_.error("imu.gyro", "is missing: an estimator needs angular rates");
+      throw loaded_.error("imu.accelerometer.columns", "is missing: an estimator needs specific forces");
+    if (imu.gyro.columns.empty())
+      throw loaded_.error("imu.gyro.columns", "is missing: an estimator needs angular rates");
     MappedTable samples = table("imu", imu, imu.time);
     const std::size_t rate = samples.want("gyro", imu.gyro, "rad/s");
     const std::size_t force = samples.want("accelerometer", imu.accelerometer, "m/s^2");
@@ -156,7 +161,8 @@ class CsvFlightReader {
     for (std::size_t row = 0; row < samples.size(); ++row) {
       const Time when = since_zero(samples.time(row));
       const auto pascal = static_cast<float>(samples.number(row, pressure));
-      if (is_within(when)) messages().push_back({when, rosflight::SmallBaro{0.0F, pascal, kUsualTemperature}});
+      if (is_within(when))
+        messages().push_back({when, rosflight::SmallBaro{0.0F, pascal, kUsualTemperature}});
     }
   }
 
@@ -210,12 +216,23 @@ class CsvFlightReader {
     return fix;
   }
 
+  void refuse_levers(const PositionColumns& columns, bool has_attitude) const {
+    const std::string path = "truth.position.p_BA_B";
+    if (columns.p_BA_B.isZero()) return;
+    if (!has_attitude) throw loaded_.error(path, "needs truth.attitude");
+    if (columns.velocity) throw loaded_.error(path, "cannot be together with `velocity`: leave that out");
+  }
+
   void read_truth(const TruthColumns& columns) {
     RecordedEstimate truth;
     truth.name = columns.name;
     if (map_.place) truth.origin = {true, map_.place->latitude, map_.place->longitude, map_.place->altitude};
-    if (columns.position) read_positions(*columns.position, truth);
+    if (columns.position) {
+      refuse_levers(*columns.position, columns.attitude.has_value());
+      read_positions(*columns.position, truth);
+    }
     if (columns.attitude) read_attitudes(*columns.attitude, truth);
+    if (columns.position) complete(*columns.position, truth);
     csv_.flight.estimates.push_back(std::move(truth));
   }
 
@@ -226,7 +243,8 @@ class CsvFlightReader {
       throw loaded_.error(path, "must have either `local` or `place`");
     const std::size_t first = columns.local ? samples.want("local", *columns.local, "m")
                                             : want_place(samples, "place", *columns.place);
-    const Matrix3 R_NP = columns.local ? north(path + ".local.axes", columns.local->axes) : Matrix3::Identity();
+    const Matrix3 R_NP =
+        columns.local ? north(path + ".local.axes", columns.local->axes) : Matrix3::Identity();
     std::size_t velocity = 0;
     Matrix3 R_NV = Matrix3::Identity();
     if (columns.velocity) {
@@ -239,19 +257,29 @@ class CsvFlightReader {
       if (columns.place && !truth.origin.known) truth.origin = {true, at.x(), at.y(), at.z()};
       RecordedPosition position;
       position.stamp = since_zero(samples.time(row));
-      position.p_NB_N = columns.local ? Vector3(R_NP * at)
-                                      : autopilot::local_from_geodetic({at.x(), at.y(), at.z()}, truth.origin);
+      position.p_NB_N = columns.local
+                            ? Vector3(R_NP * at)
+                            : autopilot::local_from_geodetic({at.x(), at.y(), at.z()}, truth.origin);
       position.velocity_known = columns.velocity.has_value();
       if (columns.velocity) position.v_NB_N = R_NV * samples.vector(row, velocity);
       truth.positions.push_back(position);
     }
-    if (!columns.velocity) {
-      add_slopes(truth.positions, columns.velocity_over);
-      char text[96];
-      std::snprintf(text, sizeof text, "'s velocity is the slope of its positions over %.2g s",
-                    columns.velocity_over);
-      remark(truth.name + text);
+  }
+
+  /// What follows from position and attitude together.
+  void complete(const PositionColumns& columns, RecordedEstimate& truth) {
+    if (!columns.p_BA_B.isZero()) {
+      const std::size_t taken_out = move_to_body(truth, columns.p_BA_B);
+      if (taken_out > 0)
+        remark("truth.position: " + std::to_string(taken_out) +
+               " positions left out at whose time the attitude is not known");
     }
+    if (columns.velocity) return;
+    add_slopes(truth.positions, columns.velocity_over);
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "'s velocity is the slope of its positions over %.2g s",
+                  columns.velocity_over);
+    remark(truth.name + text.data());
   }
 
   void read_attitudes(const AttitudeColumns& columns, RecordedEstimate& truth) {

@@ -145,9 +145,9 @@ class SensorMaker {
   void remark(const std::string& sensor, std::size_t count, const simulator::TimingParams& timing,
               const std::string& errors) {
     made_.names.push_back(sensor);
-    made_.remarks.push_back(sensor + " made from " + truth_.name + ", not recorded: " + std::to_string(count) +
-                            " at " + shortest(timing.rate) + " Hz, " + errors + ", seed " +
-                            std::to_string(wanted_.seed));
+    made_.remarks.push_back(sensor + " made from " + truth_.name +
+                            ", not recorded: " + std::to_string(count) + " at " + shortest(timing.rate) +
+                            " Hz, " + errors + ", seed " + std::to_string(wanted_.seed));
   }
 
   const MadeSensors& wanted_;

@@ -17,9 +17,9 @@ struct MadeMessages {
   std::vector<std::string> remarks;
 };
 
-/// Makes sensors from a truth, with the simulator's models of them: the same bytes for the same seed. A sensor
-/// samples at every multiple of its period at which the truth says what it measures. Truth has no rotors, no
-/// wind and no currents: the errors that models draw from these are nought.
+/// Makes sensors from a truth, with the simulator's models of them: the same bytes for the same seed. A
+/// sensor samples at every multiple of its period at which the truth says what it measures. Truth has no
+/// rotors, no wind and no currents: the errors that models draw from these are nought.
 /// @param wanted  its receiver's antenna is where the truth is (`p_BA_B` zero)
 /// @param truth  its origin is that of `site`
 /// @param end    no message arrives later

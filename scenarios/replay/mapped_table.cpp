@@ -1,7 +1,8 @@
 #include "scenarios/replay/mapped_table.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -28,8 +29,7 @@ std::vector<std::string> files_in(const fs::path& folder) {
 /// The table's file. @throws ConfigError with a name that is near when there is none
 fs::path find_file(const LoadedColumnMap& loaded, const std::string& path, const TableLayout& layout,
                    const fs::path& data) {
-  if (layout.file.empty())
-    throw loaded.error(path + ".file", "is missing: which file holds the table");
+  if (layout.file.empty()) throw loaded.error(path + ".file", "is missing: which file holds the table");
   const fs::path folder = data.empty() ? loaded.file.parent_path() : data;
   const fs::path file = folder / layout.file;
   std::error_code ignored;
@@ -59,20 +59,27 @@ TextTable read_table(const LoadedColumnMap& loaded, const std::string& path, con
   return at(loaded, path + ".file", [&] { return TextTable(file, layout); });
 }
 
-/// Marks rows whose time does not lie between those of their neighbours that go on.
-std::vector<bool> going_on(const std::vector<std::vector<double>>& rows) {
-  std::vector<bool> wanted(rows.size(), false);
-  double last = -INFINITY;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const double time = rows[k].front();
-    // One that jumps ahead, while the next two go on from where it was.
-    const bool strays = k + 2 < rows.size() && rows[k + 1].front() < time && rows[k + 2].front() < time &&
-                        rows[k + 1].front() > last && rows[k + 2].front() > rows[k + 1].front();
-    if (time <= last || strays) continue;
-    wanted[k] = true;
-    last = time;
+/// Marks as many rows as can be whose times, the first of each row, rise: the longest rising subsequence.
+std::vector<bool> in_order(const std::vector<std::vector<double>>& rows) {
+  std::vector<std::size_t> ends;  // of the rising sequences of each length the one with the earliest end
+  std::vector<std::size_t> before(rows.size());
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const auto place = std::lower_bound(
+        ends.begin(), ends.end(), rows[row].front(),
+        [&rows](std::size_t end, double time) { return rows[end].front() < time; });
+    before[row] = place == ends.begin() ? row : *std::prev(place);
+    if (place == ends.end()) {
+      ends.push_back(row);
+    } else {
+      *place = row;
+    }
   }
-  return wanted;
+  std::vector<bool> marked(rows.size(), false);
+  for (std::size_t left = ends.size(), row = ends.empty() ? 0 : ends.back(); left > 0; --left) {
+    marked[row] = true;
+    row = before[row];
+  }
+  return marked;
 }
 
 }  // namespace
@@ -126,9 +133,9 @@ std::size_t MappedTable::want(const std::string& path, const VectorColumns& colu
 void MappedTable::read(std::vector<std::string>& remarks) {
   TableNumbers found = table_.numbers(columns_);
   if (found.left_out > 0)
-    remarks.push_back(path_ + ": " + std::to_string(found.left_out) + " rows left out; the first: " +
-                      found.first_left_out);
-  const std::vector<bool> wanted = going_on(found.rows);
+    remarks.push_back(path_ + ": " + std::to_string(found.left_out) +
+                      " rows left out; the first: " + found.first_left_out);
+  const std::vector<bool> wanted = in_order(found.rows);
   std::size_t doubted = 0;
   for (std::size_t k = 0; k < found.rows.size(); ++k) {
     std::vector<double>& row = found.rows[k];
@@ -144,7 +151,7 @@ void MappedTable::read(std::vector<std::string>& remarks) {
   }
   if (doubted > 0)
     remarks.push_back(path_ + ": " + std::to_string(doubted) +
-                      " rows left out whose time does not go on from the row before (" + table_.name() + ")");
+                      " rows left out whose time is out of order (" + table_.name() + ")");
 }
 
 }  // namespace ironbird::scenarios

@@ -25,7 +25,7 @@ std::string line_of(const MagCandidate& mag, bool taken) {
 OpenedFlight open_px4(const std::filesystem::path& file, const FlightChoice& choice) {
   if (!choice.data.empty()) throw ConfigError("--data: is for the tables of a column map, MAP.toml");
   if (!choice.map_settings.empty())
-    throw ConfigError("--set map." + choice.map_settings.front().first + ": is for a column map, MAP.toml");
+    throw ConfigError("--set " + choice.map_settings.front().first + ": is for a column map, MAP.toml");
   Px4Flight px4 = read_px4_flight(UlogFile::read(file), file.string(), choice.px4);
   OpenedFlight opened;
   for (const MagCandidate& mag : px4.mags) opened.sensors.push_back(line_of(mag, px4.mag == mag.instance));
@@ -54,9 +54,10 @@ bool is_table(const std::filesystem::path& file) {
 OpenedFlight open_flight(const std::filesystem::path& file, const FlightChoice& choice) {
   if (file.extension() == ".toml") return open_tables(file, choice);
   if (is_table(file))
-    throw ConfigError(file.string() +
-                      ": what the columns of a table are has to be said: replay a column map, MAP.toml, that names "
-                      "it; see docs/how_to/replay_a_flight.md");
+    throw ConfigError(
+        file.string() +
+        ": what the columns of a table are has to be said: replay a column map, MAP.toml, that names "
+        "it; see docs/how_to/replay_a_flight.md");
   return open_px4(file, choice);
 }
 

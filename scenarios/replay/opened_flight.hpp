@@ -28,8 +28,8 @@ struct OpenedFlight {
   bool dated = true;                   ///< the field is that of the day it flew, not of the newest model
 };
 
-/// Reads a flight by the kind of its file: a column map (`.toml`) with the tables that it names, else a log of
-/// PX4. @throws UserError, for a column map ConfigError, naming the file and what is wrong
+/// Reads a flight by the kind of its file: a column map (`.toml`) with the tables that it names, else a log
+/// of PX4. @throws UserError, for a column map ConfigError, naming the file and what is wrong
 OpenedFlight open_flight(const std::filesystem::path& file, const FlightChoice& choice);
 
 }  // namespace ironbird::scenarios

@@ -99,7 +99,10 @@ Declination declination_of(const ReplayArguments& arguments, const OpenedFlight&
           "World Magnetic Model " + edition + ", meant for the five years from then"};
 }
 
-constexpr const char* kMapPrefix = "map.";
+/// Does a setting change the column map, and not the scenario?
+bool is_of_map(const std::string& path) {
+  return path.starts_with("map.");
+}
 
 /// What is said of the flight, and not of the autopilot.
 FlightChoice choice_of(const ReplayArguments& arguments) {
@@ -107,9 +110,8 @@ FlightChoice choice_of(const ReplayArguments& arguments) {
   if (arguments.mag != kUnnamed) choice.px4.mag = arguments.mag;
   if (arguments.gnss_delay >= 0.0) choice.px4.gnss_delay = arguments.gnss_delay;
   choice.data = arguments.data;
-  for (auto& [path, text] : split_settings(arguments.settings)) {
-    if (path.starts_with(kMapPrefix))
-      choice.map_settings.emplace_back(path.substr(std::string(kMapPrefix).size()), text);
+  for (auto& setting : split_settings(arguments.settings)) {
+    if (is_of_map(setting.first)) choice.map_settings.push_back(std::move(setting));
   }
   return choice;
 }
@@ -158,7 +160,7 @@ LoadedScenario load(const ReplayArguments& arguments, const Variant& variant, co
   settings.emplace_back("environment.magnetic_field.declination",
                         std::to_string(declination.angle * kDegrees) + " deg");
   for (auto& setting : split_settings(wanted)) {
-    if (!setting.first.starts_with(kMapPrefix)) settings.push_back(std::move(setting));
+    if (!is_of_map(setting.first)) settings.push_back(std::move(setting));
   }
   std::filesystem::path file = variant.scenario;
   if (file.empty()) file = arguments.scenario;
@@ -294,7 +296,9 @@ Verb replay_verb() {
   return {
       "replay", "feed a recorded flight to the estimators", [](VerbOptions& options) {
         auto arguments = std::make_shared<ReplayArguments>();
-        options.option("flight", arguments->flight, "log of a PX4 autopilot, FLIGHT.ulg, or column map of a flight in tables, MAP.toml")
+        options
+            .option("flight", arguments->flight,
+                    "log of a PX4 autopilot, FLIGHT.ulg, or column map of a flight in tables, MAP.toml")
             .required();
         options.option("--data", arguments->data, "folder of the tables of a column map; else the map's own");
         options.option("--vehicle", arguments->vehicle, "folder of the vehicle whose autopilot stands in");

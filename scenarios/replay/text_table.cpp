@@ -89,11 +89,10 @@ std::optional<std::string_view> TextTable::fields_of(std::string_view line) cons
 void TextTable::read_header() {
   if (lines_.empty()) {
     const bool chosen = !layout_.lines_with.empty() || !layout_.skip_past.empty();
-    throw TableError(
-        name_ + ": " +
-        (text_.empty() ? "is empty"
-         : chosen      ? "has no line of this table; see its lines_with, skip_past and skip_count"
-                       : "has no line"));
+    throw TableError(name_ + ": " +
+                     (text_.empty() ? "is empty"
+                      : chosen ? "has no line of this table; see its lines_with, skip_past and skip_count"
+                               : "has no line"));
   }
   if (!layout_.header.empty()) {
     columns_ = layout_.header;
@@ -153,7 +152,8 @@ TableNumbers TextTable::numbers(const std::vector<std::string>& columns) const {
       }
       const auto value = finite_number(fields[column]);
       if (!value) {
-        leave_out(line, "column '" + columns_[column] + "' is no number: '" + std::string(fields[column]) + "'");
+        leave_out(line,
+                  "column '" + columns_[column] + "' is no number: '" + std::string(fields[column]) + "'");
         break;
       }
       row.push_back(*value);

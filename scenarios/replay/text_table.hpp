@@ -2,8 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <stdexcept>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,12 +12,12 @@ namespace ironbird::scenarios {
 
 /// How the lines of a text file are a table.
 struct TableLayout {
-  std::string file;
+  std::string file = {};
   std::string delimiter = ",";
-  std::string lines_with;
-  std::string skip_past;
+  std::string lines_with = {};
+  std::string skip_past = {};
   int skip_count = 1;
-  std::vector<std::string> header;
+  std::vector<std::string> header = {};
 
   template <class Self, class Visit>
   static void describe_in(Self& self, Visit&& visit) {
@@ -50,9 +50,9 @@ struct TableNumbers {
   }
 };
 
-/// A table in a text file: comma-separated values as in RFC 4180, or with another delimiter, with something in
-/// front of every line, or without a header. Names and fields are taken without the blanks around them, a `#`
-/// before the header is no part of it, lines that begin with `#` and empty ones are passed over. A quoted
+/// A table in a text file: comma-separated values as in RFC 4180, or with another delimiter, with something
+/// in front of every line, or without a header. Names and fields are taken without the blanks around them, a
+/// `#` before the header is no part of it, lines that begin with `#` and empty ones are passed over. A quoted
 /// field does not go on in the next line.
 class TextTable {
  public:

@@ -81,6 +81,20 @@ void add_slopes(std::vector<RecordedPosition>& positions, double over) {
   }
 }
 
+std::size_t move_to_body(RecordedEstimate& truth, const Vector3& p_BA_B) {
+  const TruthTrack track(truth);
+  std::vector<RecordedPosition> moved;
+  for (RecordedPosition position : truth.positions) {
+    const auto q_NB = track.attitude(position.stamp);
+    if (!q_NB) continue;
+    position.p_NB_N -= *q_NB * p_BA_B;
+    moved.push_back(position);
+  }
+  const std::size_t taken_out = truth.positions.size() - moved.size();
+  truth.positions = std::move(moved);
+  return taken_out;
+}
+
 std::optional<Vector3> TruthTrack::position(Time when) const {
   const auto found = around(truth_.positions, when);
   if (!found) return std::nullopt;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -8,10 +9,15 @@
 namespace ironbird::scenarios {
 
 /// Gives each position the velocity that the slope of its neighbours is: of the cubic that fits the positions
-/// within half of `over` on either side best. A position whose neighbours do not reach that far on both sides,
-/// or are fewer than five, gets none (`velocity_known` false).
+/// within half of `over` on either side best. A position whose neighbours do not reach that far on both
+/// sides, or are fewer than five, gets none (`velocity_known` false).
 /// @param positions  by time @param over  s, > 0
 void add_slopes(std::vector<RecordedPosition>& positions, double over);
+
+/// Moves positions of a place on the body to the body's origin, with the attitudes of the same truth. A
+/// position of whose time the attitude is not known is taken out. @param p_BA_B  the place, m @return how
+/// many were taken out
+std::size_t move_to_body(RecordedEstimate& truth, const autopilot::Vector3& p_BA_B);
 
 /// What a truth says between its samples: linear in position and velocity, on the shortest turn in attitude.
 /// Across more than a second without a sample, and before the first and after the last, it says nothing.
