@@ -18,9 +18,9 @@ struct CsvFlight {
 };
 
 /// Takes sensors and truth out of the tables that a column map names, and makes from the truth what the map
-/// says is to be made. Rows that are not whole are left out, with a remark, and those that keep the most others from being in
-/// order of time.
-/// The vehicle is taken to be armed and in the air from the first row to the last.
+/// says is to be made. Rows that are not whole are left out, with a remark, and those that keep the most
+/// others from being in order of time. The vehicle is taken to be armed and in the air from the first row to
+/// the last.
 /// @param data  folder of the tables; empty: the map's own
 /// @throws ConfigError for a map that does not fit the tables, UserError for a table that cannot be read or
 /// an IMU without a sample

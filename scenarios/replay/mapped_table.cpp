@@ -9,7 +9,7 @@
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/config/quantity.hpp"
-#include "scenarios/config/user_error.hpp"
+#include "scenarios/replay/usdlog_table.hpp"
 
 namespace ironbird::scenarios {
 
@@ -52,11 +52,14 @@ auto at(const LoadedColumnMap& loaded, const std::string& path, Work&& work) {
   }
 }
 
-TextTable read_table(const LoadedColumnMap& loaded, const std::string& path, const TableLayout& layout,
-                     const fs::path& data) {
+std::unique_ptr<const NumberTable> read_table(const LoadedColumnMap& loaded, const std::string& path,
+                                              const TableLayout& layout, const fs::path& data) {
   const fs::path file = find_file(loaded, path, layout, data);
   if (layout.delimiter.empty()) throw loaded.error(path + ".delimiter", "must not be empty");
-  return at(loaded, path + ".file", [&] { return TextTable(file, layout); });
+  return at(loaded, path + ".file", [&]() -> std::unique_ptr<const NumberTable> {
+    if (file.extension() == ".usdlog") return std::make_unique<UsdlogTable>(file, layout.record);
+    return std::make_unique<TextTable>(file, layout);
+  });
 }
 
 /// Marks as many rows as can be whose times, the first of each row, rise: the longest rising subsequence.
@@ -64,9 +67,9 @@ std::vector<bool> in_order(const std::vector<std::vector<double>>& rows) {
   std::vector<std::size_t> ends;  // of the rising sequences of each length the one with the earliest end
   std::vector<std::size_t> before(rows.size());
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    const auto place = std::lower_bound(
-        ends.begin(), ends.end(), rows[row].front(),
-        [&rows](std::size_t end, double time) { return rows[end].front() < time; });
+    const auto place =
+        std::lower_bound(ends.begin(), ends.end(), rows[row].front(),
+                         [&rows](std::size_t end, double time) { return rows[end].front() < time; });
     before[row] = place == ends.begin() ? row : *std::prev(place);
     if (place == ends.end()) {
       ends.push_back(row);
@@ -100,7 +103,7 @@ double MappedTable::size_of(const std::string& path, const std::string& unit, co
 }
 
 void MappedTable::find(const std::string& path, const std::string& column) const {
-  at(loaded_, path, [&] { return table_.find(column); });
+  at(loaded_, path, [&] { return table_->find(column); });
 }
 
 std::size_t MappedTable::want(const std::string& path, const NumberColumn& column, const char* unit) {
@@ -131,7 +134,7 @@ std::size_t MappedTable::want(const std::string& path, const VectorColumns& colu
 }
 
 void MappedTable::read(std::vector<std::string>& remarks) {
-  TableNumbers found = table_.numbers(columns_);
+  TableNumbers found = table_->numbers(columns_);
   if (found.left_out > 0)
     remarks.push_back(path_ + ": " + std::to_string(found.left_out) +
                       " rows left out; the first: " + found.first_left_out);
@@ -150,8 +153,8 @@ void MappedTable::read(std::vector<std::string>& remarks) {
     rows_.push_back(std::move(row));
   }
   if (doubted > 0)
-    remarks.push_back(path_ + ": " + std::to_string(doubted) +
-                      " rows left out whose time is out of order (" + table_.name() + ")");
+    remarks.push_back(path_ + ": " + std::to_string(doubted) + " rows left out whose time is out of order (" +
+                      table_->name() + ")");
 }
 
 }  // namespace ironbird::scenarios

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ class MappedTable {
   autopilot::Vector3 vector(std::size_t row, std::size_t first) const {
     return {rows_[row][first], rows_[row][first + 1], rows_[row][first + 2]};
   }
-  const std::string& name() const { return table_.name(); }
+  const std::string& name() const { return table_->name(); }
 
  private:
   void find(const std::string& path, const std::string& column) const;
@@ -47,7 +48,7 @@ class MappedTable {
 
   const LoadedColumnMap& loaded_;
   std::string path_;
-  TextTable table_;
+  std::unique_ptr<const NumberTable> table_;
   double offset_;                     // s
   std::vector<std::string> columns_;  // the first is time
   std::vector<double> sizes_;         // SI units in one of theirs

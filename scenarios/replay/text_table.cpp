@@ -7,7 +7,6 @@
 #include <system_error>
 #include <utility>
 
-#include "scenarios/config/nearest_name.hpp"
 #include "scenarios/config/one_line.hpp"
 #include "scenarios/record/log_bytes.hpp"
 
@@ -127,11 +126,7 @@ std::size_t TextTable::find(const std::string& column) const {
   const auto found = std::find(columns_.begin(), columns_.end(), trimmed(column));
   if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
   const std::string where = header_line_ == 0 ? name_ + ": " : place(name_, header_line_);
-  const std::string nearest = nearest_name(column, columns_);
-  std::string names;
-  for (const std::string& name : columns_) names += (names.empty() ? "" : ", ") + name;
-  throw TableError(where + "there is no column '" + column + "'" +
-                   (nearest.empty() ? "; there are: " + names : "; did you mean '" + nearest + "'?"));
+  throw TableError(where + "there is no column '" + column + "'" + instead_of(column, columns_));
 }
 
 TableNumbers TextTable::numbers(const std::vector<std::string>& columns) const {

@@ -3,14 +3,15 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "scenarios/replay/number_table.hpp"
+
 namespace ironbird::scenarios {
 
-/// How the lines of a text file are a table.
+/// How a file is a table: the lines of a text, or the records of one type in a log of a Crazyflie.
 struct TableLayout {
   std::string file = {};
   std::string delimiter = ",";
@@ -18,6 +19,7 @@ struct TableLayout {
   std::string skip_past = {};
   int skip_count = 1;
   std::vector<std::string> header = {};
+  std::string record = {};
 
   template <class Self, class Visit>
   static void describe_in(Self& self, Visit&& visit) {
@@ -28,25 +30,7 @@ struct TableLayout {
           "a line's fields begin behind this text, such as '] ' behind '[12:30] [7] '; empty: at once");
     visit("skip_count", self.skip_count, "1", "how many of that text to pass", 1.0, 1000.0);
     visit("header", self.header, "", "names of the columns; none: the first line has them");
-  }
-};
-
-/// What is wrong with a table of a file, in words that begin with its place: `file:line: ...`.
-class TableError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Rows of numbers, in the order of the columns that were asked for, and what had to be left out.
-struct TableNumbers {
-  std::vector<std::vector<double>> rows;
-  std::size_t left_out = 0;
-  std::string first_left_out;  ///< the place and the reason; empty: none was
-
-  template <class Self, class Visit>
-  static void describe(Self& self, Visit&& visit) {
-    visit("left_out", self.left_out, "1", "rows with a field that is missing or no finite number");
-    visit("first_left_out", self.first_left_out, "", "place of the first of them, and what is wrong there");
+    visit("record", self.record, "", "of a log of a Crazyflie, FILE.usdlog: which type of record");
   }
 };
 
@@ -54,7 +38,7 @@ struct TableNumbers {
 /// in front of every line, or without a header. Names and fields are taken without the blanks around them, a
 /// `#` before the header is no part of it, lines that begin with `#` and empty ones are passed over. A quoted
 /// field does not go on in the next line.
-class TextTable {
+class TextTable : public NumberTable {
  public:
   /// @throws UserError when the file cannot be read, TableError when it is empty or no text
   TextTable(const std::filesystem::path& file, TableLayout layout);
@@ -66,14 +50,9 @@ class TextTable {
   TextTable(const TextTable&) = delete;
   TextTable& operator=(const TextTable&) = delete;
 
-  /// The place of a column. @throws TableError with the nearest name when there is none
-  std::size_t find(const std::string& column) const;
-
-  /// The rows in which all of these columns hold a finite number.
-  TableNumbers numbers(const std::vector<std::string>& columns) const;
-
-  const std::vector<std::string>& columns() const { return columns_; }
-  const std::string& name() const { return name_; }
+  std::size_t find(const std::string& column) const override;
+  TableNumbers numbers(const std::vector<std::string>& columns) const override;
+  const std::string& name() const override { return name_; }
 
  private:
   /// A line of the table, without what stands before its fields.

@@ -110,7 +110,8 @@ template <class Content>
 std::vector<std::pair<Time, Content>> of(const CsvFlight& csv) {
   std::vector<std::pair<Time, Content>> found;
   for (const hil_bridge::Arrival& arrival : csv.flight.messages) {
-    if (const auto* content = std::get_if<Content>(&arrival.message)) found.emplace_back(arrival.when, *content);
+    if (const auto* content = std::get_if<Content>(&arrival.message))
+      found.emplace_back(arrival.when, *content);
   }
   return found;
 }
@@ -142,17 +143,18 @@ TEST_F(CsvFlightTest, TakesSoManyOfAUnit) {
 }
 
 TEST_F(CsvFlightTest, ReadsSlowSensorsOnTheClockOfTheImu) {
-  write("slow.csv",
-        "t,lat,lon,alt,ve,vn,vu,mx,my,mz,p\n999,48,11,500,1,2,3,200,0,400,950\n1001.5,48.001,11.002,510,1,2,3,"
-        "200,10,400,950.5\n");
+  write(
+      "slow.csv",
+      "t,lat,lon,alt,ve,vn,vu,mx,my,mz,p\n999,48,11,500,1,2,3,200,0,400,950\n1001.5,48.001,11.002,510,1,2,3,"
+      "200,10,400,950.5\n");
   const std::string time = "file = \"slow.csv\"\ntime = { column = \"t\" }\n";
-  const CsvFlight csv =
-      read(imu() + "[gnss]\n" + time +
-           "place = { latitude = { column = \"lat\", unit = \"deg\" }, longitude = { column = \"lon\", unit = "
-           "\"deg\" }, altitude = { column = \"alt\" } }\n"
-           "velocity = { columns = [\"ve\", \"vn\", \"vu\"], axes = \"east-north-up\" }\ndelay = \"0.2 s\"\n" +
-           "[magnetometer]\n" + time + "field = { columns = [\"mx\", \"my\", \"mz\"], unit = \"mgauss\" }\n" +
-           "[barometer]\n" + time + "pressure = { column = \"p\", unit = \"hPa\" }\n");
+  const CsvFlight csv = read(
+      imu() + "[gnss]\n" + time +
+      "place = { latitude = { column = \"lat\", unit = \"deg\" }, longitude = { column = \"lon\", unit = "
+      "\"deg\" }, altitude = { column = \"alt\" } }\n"
+      "velocity = { columns = [\"ve\", \"vn\", \"vu\"], axes = \"east-north-up\" }\ndelay = \"0.2 s\"\n" +
+      "[magnetometer]\n" + time + "field = { columns = [\"mx\", \"my\", \"mz\"], unit = \"mgauss\" }\n" +
+      "[barometer]\n" + time + "pressure = { column = \"p\", unit = \"hPa\" }\n");
   const auto fixes = of<rosflight::RosflightGnss>(csv);
   ASSERT_EQ(fixes.size(), 1U) << "the first is from before the IMU's";
   EXPECT_EQ(fixes[0].first, milliseconds(1700));
@@ -262,9 +264,10 @@ TEST_F(CsvFlightTest, MakesTheSameNoiseOfTheSameSeed) {
 }
 
 TEST_F(CsvFlightTest, LeavesOutRowsThatAreNotWholeOrNotInOrder) {
-  write("imu.csv",
-        "time,gx,gy,gz,ax,ay,az\n0,0,0,0,0,0,9.8\n1e9,0,0,0,0,0,9.8\n0.01,0,0,0,nan,0,9.8\n0.02,0,0,0,0,0,9.8\n"
-        "0.03,0,0,0\n0.01,0,0,0,0,0,9.8\n0.04,0,0,0,0,0,9.8\n0.05,0,0,0,0,0,9.8\n");
+  write(
+      "imu.csv",
+      "time,gx,gy,gz,ax,ay,az\n0,0,0,0,0,0,9.8\n1e9,0,0,0,0,0,9.8\n0.01,0,0,0,nan,0,9.8\n0.02,0,0,0,0,0,9.8\n"
+      "0.03,0,0,0\n0.01,0,0,0,0,0,9.8\n0.04,0,0,0,0,0,9.8\n0.05,0,0,0,0,0,9.8\n");
   const CsvFlight csv = read(imu());
   EXPECT_EQ(of<rosflight::SmallImu>(csv).size(), 4U);
   EXPECT_THAT(csv.flight.remarks,
@@ -290,23 +293,34 @@ TEST_P(WrongMapTest, IsSaidWithItsPlace) {
 INSTANTIATE_TEST_SUITE_P(
     Known, WrongMapTest,
     testing::Values(
-        WrongMap{"file", {"map.imu.file", "imu.cvs"}, "-imu.file: there is no file imu.cvs; did you mean imu.csv?"},
-        WrongMap{"folder", {"map.imu.file", "elsewhere/table"},
+        WrongMap{"file",
+                 {"map.imu.file", "imu.cvs"},
+                 "-imu.file: there is no file imu.cvs; did you mean imu.csv?"},
+        WrongMap{"folder",
+                 {"map.imu.file", "elsewhere/table"},
                  "-imu.file: there is no file elsewhere/table; --data names the folder of the tables"},
-        WrongMap{"column", {"map.imu.time.column", "tme"},
+        WrongMap{"column",
+                 {"map.imu.time.column", "tme"},
                  "-imu.time.column: imu.csv:1: there is no column 'tme'; did you mean 'time'?"},
         WrongMap{"unit", {"map.imu.gyro.unit", "m"}, "-imu.gyro.unit: found 'm', needs rad/s, deg/s or rpm"},
-        WrongMap{"axes", {"map.imu.gyro.axes", "front-left-down"},
+        WrongMap{"axes",
+                 {"map.imu.gyro.axes", "front-left-down"},
                  "-imu.gyro.axes: is left-handed; turn one of the three round"},
-        WrongMap{"direction", {"map.truth.position.local.axes", "east-north-zenith"},
-                 "-truth.position.local.axes: 'zenith' is no direction; there are north, south, east, west, down, up"},
-        WrongMap{"two_columns", {"map.imu.gyro.columns", "[\"gx\", \"gy\"]"},
+        WrongMap{"direction",
+                 {"map.truth.position.local.axes", "east-north-zenith"},
+                 "-truth.position.local.axes: 'zenith' is no direction; there are north, south, east, west, "
+                 "down, up"},
+        WrongMap{"two_columns",
+                 {"map.imu.gyro.columns", "[\"gx\", \"gy\"]"},
                  "-imu.gyro.columns: must name 3 columns; it names 2"},
-        WrongMap{"no_accelerometer", {"map.imu.accelerometer.columns", "[]"},
+        WrongMap{"no_accelerometer",
+                 {"map.imu.accelerometer.columns", "[]"},
                  "-imu.accelerometer.columns: is missing: an estimator needs specific forces"},
-        WrongMap{"both_attitudes", {"map.truth.attitude.quaternion", "[\"a\", \"b\", \"c\", \"d\"]"},
+        WrongMap{"both_attitudes",
+                 {"map.truth.attitude.quaternion", "[\"a\", \"b\", \"c\", \"d\"]"},
                  ":17:1: truth.attitude: must have either `euler` or `quaternion`"},
-        WrongMap{"antenna", {"map.made.gnss.p_BA_B", "[0, 0, 1]"},
+        WrongMap{"antenna",
+                 {"map.made.gnss.p_BA_B", "[0, 0, 1]"},
                  "-made.gnss.p_BA_B: must be 0: the antenna is where truth.position is"},
         WrongMap{"delimiter", {"map.imu.delimiter", "\"\""}, "-imu.delimiter: must not be empty"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });
@@ -329,7 +343,8 @@ TEST(DirectionAxesTest, TakesOnlyRightHandedAxes) {
   EXPECT_TRUE(north_from_axes("north-east-down").isIdentity());
   EXPECT_EQ(Vector3(north_from_axes("east-north-up") * Vector3(1.0, 2.0, 3.0)), Vector3(2.0, 1.0, -3.0));
   EXPECT_EQ(Vector3(body_from_axes("right-front-up") * Vector3(1.0, 2.0, 3.0)), Vector3(2.0, 1.0, -3.0));
-  for (const char* axes : {"", "front", "front-left-up-up", "front-front-up", "front-right-up", "north-east-down"})
+  for (const char* axes :
+       {"", "front", "front-left-up-up", "front-front-up", "front-right-up", "north-east-down"})
     EXPECT_THROW(body_from_axes(axes), AxesError) << axes;
 }
 

@@ -70,16 +70,16 @@ TEST_P(TextTableBadRowTest, IsLeftOutAndCounted) {
   EXPECT_EQ(found.first_left_out, std::string("flight.csv:3: ") + GetParam().complaint);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Known, TextTableBadRowTest,
-    testing::Values(BadRow{"1,2", "has 2 fields; column 'b' is number 3"},
-                    BadRow{"1", "has 1 fields; column 'b' is number 3"},
-                    BadRow{"1,2,x", "column 'b' is no number: 'x'"}, BadRow{"1,2,", "column 'b' is no number: ''"},
-                    BadRow{"nan,2,3", "column 't' is no number: 'nan'"},
-                    BadRow{"1,2,inf", "column 'b' is no number: 'inf'"},
-                    BadRow{"1,2,1e999", "column 'b' is no number: '1e999'"},
-                    BadRow{"1,2,3m", "column 'b' is no number: '3m'"},
-                    BadRow{"1,2,\"3", "column 'b' is no number: '\"3'"}));
+INSTANTIATE_TEST_SUITE_P(Known, TextTableBadRowTest,
+                         testing::Values(BadRow{"1,2", "has 2 fields; column 'b' is number 3"},
+                                         BadRow{"1", "has 1 fields; column 'b' is number 3"},
+                                         BadRow{"1,2,x", "column 'b' is no number: 'x'"},
+                                         BadRow{"1,2,", "column 'b' is no number: ''"},
+                                         BadRow{"nan,2,3", "column 't' is no number: 'nan'"},
+                                         BadRow{"1,2,inf", "column 'b' is no number: 'inf'"},
+                                         BadRow{"1,2,1e999", "column 'b' is no number: '1e999'"},
+                                         BadRow{"1,2,3m", "column 'b' is no number: '3m'"},
+                                         BadRow{"1,2,\"3", "column 'b' is no number: '\"3'"}));
 
 TEST(TextTableTest, LeavesAloneWhatWasNotAskedFor) {
   EXPECT_EQ(numbers("t,name\n1,take-off\n", {"t"}).left_out, 0U);
