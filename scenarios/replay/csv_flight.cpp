@@ -33,6 +33,7 @@ using hil_bridge::Time;
 namespace rosflight = hil_bridge::rosflight;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kLongestFlight = 864'000.0;  // s
 constexpr Time kStatusPeriod = std::chrono::milliseconds(100);
 
 bool is_imu(const Arrival& arrival) {
@@ -126,8 +127,13 @@ class CsvFlightReader {
     samples.read(csv_.flight.remarks);
     if (samples.size() == 0) throw UserError(samples.name() + ": has no IMU samples");
     zero_ = samples.time(0);
+    std::size_t count = samples.size();
+    while (samples.time(count - 1) - zero_ > kLongestFlight) --count;
+    if (count < samples.size())
+      remark("imu: " + std::to_string(samples.size() - count) +
+             " rows more than ten days after the first left out");
     Time due{};
-    for (std::size_t row = 0; row < samples.size(); ++row) {
+    for (std::size_t row = 0; row < count; ++row) {
       const Time when = since_zero(samples.time(row));
       const Eigen::Vector3f f = (R_BA * samples.vector(row, force)).cast<float>();
       const Eigen::Vector3f w = (R_BG * samples.vector(row, rate)).cast<float>();

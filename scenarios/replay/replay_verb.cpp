@@ -338,6 +338,7 @@ Verb replay_verb() {
             "  ironbird replay flight.ulg\n"
             "  ironbird replay flight.ulg --set autopilot.estimator.kind=error_state\n"
             "  ironbird replay flight.ulg --compare ekf error_state\n"
+            "  ironbird replay columns.toml --data tables --set map.made.seed=2\n"
             "  ironbird replay flight.ulg --mag 1 --window 5:60 --at-most horizontal_difference_rms_m=0.25");
         return [arguments](const autopilot::Modules& modules) { return replay(*arguments, modules); };
       }};

@@ -181,7 +181,8 @@ UsdlogTable::UsdlogTable(const std::vector<std::uint8_t>& bytes, std::string nam
 std::size_t UsdlogTable::find(const std::string& column) const {
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
-  throw TableError(on_one_line(name_ + ": there is no column '" + column + "'" + instead_of(column, columns_)));
+  throw TableError(
+      on_one_line(name_ + ": there is no column '" + column + "'" + instead_of(column, columns_)));
 }
 
 TableNumbers UsdlogTable::numbers(const std::vector<std::string>& columns) const {

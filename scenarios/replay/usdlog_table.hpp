@@ -9,9 +9,10 @@
 
 namespace ironbird::scenarios {
 
-/// The records of one type in a log that a Crazyflie wrote to its card (`.usdlog`, versions 1 and 2), with their
-/// stamps, us, as the column `timestamp`. Trusts none of the bytes: what is cut, or of a type that the header
-/// does not tell, ends it, and is counted as a row that was left out. The check sum at the end is not looked at.
+/// The records of one type in a log that a Crazyflie wrote to its card (`.usdlog`, versions 1 and 2), with
+/// their stamps, us, as the column `timestamp`. Trusts none of the bytes: what is cut, or of a type that the
+/// header does not tell, ends it, and is counted as a row that was left out. The check sum at the end is not
+/// looked at.
 class UsdlogTable : public NumberTable {
  public:
   /// @param record  name of the type; the only one need not be named

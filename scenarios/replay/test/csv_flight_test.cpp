@@ -276,6 +276,16 @@ TEST_F(CsvFlightTest, LeavesOutRowsThatAreNotWholeOrNotInOrder) {
   EXPECT_THAT(csv.flight.remarks, Contains(HasSubstr("imu: 2 rows left out whose time is out of order")));
 }
 
+TEST_F(CsvFlightTest, DoesNotFlyForYears) {
+  write(
+      "imu.csv",
+      "time,gx,gy,gz,ax,ay,az\n0,0,0,0,0,0,9.8\n0.01,0,0,0,0,0,9.8\n3e9,0,0,0,0,0,9.8\n9e9,0,0,0,0,0,9.8\n");
+  const CsvFlight csv = read(imu());
+  EXPECT_EQ(csv.flight.end, milliseconds(10));
+  EXPECT_THAT(csv.flight.remarks, Contains("imu: 1 rows more than ten days after the first left out"));
+  EXPECT_THAT(csv.flight.remarks, Contains(HasSubstr("imu: 1 rows left out whose time is out of order")));
+}
+
 struct WrongMap {
   const char* name;
   std::pair<std::string, std::string> setting;

@@ -1,4 +1,5 @@
-// The estimators on flights with a track of centimetres: no noise of the sensors that are made takes them out of bounds.
+// The estimators on flights with a track of centimetres: no noise of the sensors that are made takes them out
+// of bounds.
 
 #include <gtest/gtest.h>
 
@@ -22,12 +23,11 @@ using nlohmann::json;
 
 constexpr int kSeeds = 20;
 
-std::string told(const std::string& map, const std::string& more) {
-  const std::string command = std::string(IRONBIRD_PROGRAM) + " replay '" IRONBIRD_SOURCE_DIR
-                              "/scenarios/replay/maps/" + map + ".toml' --data '" +
-                              (test::flights_folder() / "rtk").string() + "' --no-log --json --out '" +
-                              testing::TempDir() + "ironbird_rtk_" + std::to_string(getpid()) + "' " + more +
-                              " 2>/dev/null";
+std::string told(const std::string& map, const std::string& more, const char* folder = "rtk") {
+  const std::string command =
+      std::string(IRONBIRD_PROGRAM) + " replay '" IRONBIRD_SOURCE_DIR "/scenarios/replay/maps/" + map +
+      ".toml' --data '" + (test::flights_folder() / folder).string() + "' --no-log --json --out '" +
+      testing::TempDir() + "ironbird_rtk_" + std::to_string(getpid()) + "' " + more + " 2>/dev/null";
   FILE* const pipe = popen(command.c_str(), "r");
   std::string text;
   std::array<char, 4096> part{};
@@ -40,13 +40,14 @@ std::string told(const std::string& map, const std::string& more) {
 std::map<std::string, double> worst(const std::string& map, const std::string& kind) {
   std::map<std::string, double> greatest;
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    const json verdict = json::parse(told(map, "--set autopilot.estimator.kind=" + kind +
-                                                   " --set map.made.seed=" + std::to_string(seed)));
+    const json verdict = json::parse(
+        told(map, "--set autopilot.estimator.kind=" + kind + " --set map.made.seed=" + std::to_string(seed)));
     EXPECT_EQ(verdict["verdict"], "pass") << map << ' ' << kind << ' ' << seed;
     for (const auto& [name, value] : verdict["metrics"].items()) {
       const double figure = value.is_number() ? value.get<double>() : std::numeric_limits<double>::infinity();
       const auto [found, added] = greatest.emplace(name, figure);
-      found->second = name == "compared_share" ? std::min(found->second, figure) : std::max(found->second, figure);
+      found->second =
+          name == "compared_share" ? std::min(found->second, figure) : std::max(found->second, figure);
     }
   }
   return greatest;
@@ -82,6 +83,21 @@ TEST(RtkFlightsTest, SaysWhatWasMadeAndMakesItAgain) {
   for (const char* made : {"GNSS fixes made from RTK, not recorded", "barometer made from RTK, not recorded",
                            "magnetometer made from RTK, not recorded"})
     EXPECT_NE(json::parse(once)["warnings"].dump().find(made), std::string::npos) << made;
+}
+
+// Nothing is asked of these; that a filter finds its way in a room with a receiver of the field is enough.
+TEST(CrazyflieFlightsTest, AreReplayed) {
+  IRONBIRD_NEEDS_FLIGHTS();
+  for (const char* const map : {"crazyflie_figure8", "crazyflie_yaw"}) {
+    for (const char* const kind : {"ekf", "error_state"}) {
+      const json verdict =
+          json::parse(told(map, std::string("--set autopilot.estimator.kind=") + kind, "sysid"));
+      EXPECT_EQ(verdict["verdict"], "pass") << map << ' ' << kind;
+      EXPECT_LE(verdict["metrics"]["horizontal_difference_rms_m"], 0.3) << map << ' ' << kind;
+      EXPECT_LE(verdict["metrics"]["roll_difference_rms_deg"], 3.0) << map << ' ' << kind;
+      EXPECT_LE(verdict["metrics"]["pitch_difference_rms_deg"], 3.0) << map << ' ' << kind;
+    }
+  }
 }
 
 }  // namespace

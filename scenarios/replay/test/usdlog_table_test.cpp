@@ -74,8 +74,11 @@ TEST(UsdlogTableTest, ReadsTheRecordsOfOneType) {
 }
 
 TEST(UsdlogTableTest, LeavesOutWhatIsNoNumber) {
-  const TableNumbers found =
-      UsdlogByHand().imu(1, std::numeric_limits<float>::quiet_NaN(), 0).imu(2, 1.0F, 0).table("imu").numbers({"acc.z"});
+  const TableNumbers found = UsdlogByHand()
+                                 .imu(1, std::numeric_limits<float>::quiet_NaN(), 0)
+                                 .imu(2, 1.0F, 0)
+                                 .table("imu")
+                                 .numbers({"acc.z"});
   EXPECT_EQ(found.rows, (Rows{{1.0}}));
   EXPECT_EQ(found.left_out, 1U);
   EXPECT_EQ(found.first_left_out, "fly.usdlog: record 1: column 'acc.z' is no number");
@@ -98,7 +101,8 @@ TEST(UsdlogTableTest, SaysWhatThereIsNot) {
 }
 
 TEST(UsdlogTableTest, EndsWhereATypeIsNotKnown) {
-  const TableNumbers found = UsdlogByHand().imu(1, 1.0F, 0).put(17, 2).imu(2, 1.0F, 0).table("imu").numbers({"raw"});
+  const TableNumbers found =
+      UsdlogByHand().imu(1, 1.0F, 0).put(17, 2).imu(2, 1.0F, 0).table("imu").numbers({"raw"});
   EXPECT_EQ(found.rows.size(), 1U);
   EXPECT_THAT(found.first_left_out, HasSubstr("a type that the header does not tell"));
 }
