@@ -121,7 +121,10 @@ void Alignment::add_imu(const ImuSample& imu, double dt) {
 
 void Alignment::add_fix(const GnssSample& fix) {
   Window& w = window_;
-  if (w.fixes == 0) w.first_fix = fix;
+  if (w.fixes == 0) {
+    w.first_fix = fix;
+    w.f_sum_begin.setZero();
+  }
   ++w.fixes;
   w.last_fix = fix;
   w.latitude_sum += fix.latitude - w.first_fix.latitude;
@@ -224,7 +227,8 @@ bool Alignment::add(const SensorFrame& frame, double dt, const AidingParams& par
     find_at_rest(params);
     return true;
   }
-  if (complete && may_move) {
+  const double told = seconds(window_.last_fix.stamp - window_.first_fix.stamp);
+  if (complete && may_move && told >= 0.5 * wanted.duration) {
     find_in_motion(params, now);
     return true;
   }

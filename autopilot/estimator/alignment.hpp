@@ -50,7 +50,8 @@ struct StartState {
 
 /// Finds the first state of a filter: at rest from means of accelerometer, gyro, compass, barometer and
 /// satellite fixes; in motion from the same with the rotation taken out and the acceleration from the
-/// satellite velocity.
+/// satellite velocity. The fixes have to tell of half of the least time of averaging, and forces count from
+/// the first of them on: in a weave the acceleration of one part says nothing of another.
 ///
 /// At rest the accelerometer measures -R^T g e_d + bias. Tilt and the horizontal bias cannot be told apart
 /// there, and are not: tilt takes all of it. Only |f| - g along f is seen, and is kept as the accelerometer's
@@ -79,7 +80,7 @@ class Alignment {
     Vector3 f_first_B = Vector3::Zero();
     Vector3 w_first_B = Vector3::Zero();
     Quaternion turned = Quaternion::Identity();  ///< B now to B at the beginning
-    Vector3 f_sum_begin = Vector3::Zero();       ///< in B at the beginning
+    Vector3 f_sum_begin = Vector3::Zero();       ///< in B at the beginning, from the first fix on
     Vector3 m_sum_begin = Vector3::Zero();
     Vector3 m_sum_B = Vector3::Zero();
     int mag = 0;

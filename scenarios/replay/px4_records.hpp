@@ -13,6 +13,7 @@
 #include "autopilot/types/linear_algebra.hpp"
 #include "hil_bridge/fcu/fcu.hpp"
 #include "scenarios/replay/ulog_file.hpp"
+#include "scenarios/replay/wire_stamp.hpp"
 
 // What the parts of read_px4_flight share.
 
@@ -108,10 +109,5 @@ class Px4Log {
   /// Only what came while the IMU was logged: the last values of before are logged with their old stamps.
   bool is_within(hil_bridge::Time when) const { return when >= hil_bridge::Time::zero() && when <= end; }
 };
-
-/// A time as the wire's stamps are.
-inline std::uint64_t wire_stamp(hil_bridge::Time time) {
-  return time > hil_bridge::Time::zero() ? static_cast<std::uint64_t>(time.count() / 1000) : 0;
-}
 
 }  // namespace ironbird::scenarios

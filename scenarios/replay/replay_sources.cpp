@@ -11,7 +11,7 @@
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/file_search.hpp"
 #include "scenarios/replay/magnetic_field.hpp"
-#include "scenarios/replay/px4_flight.hpp"
+#include "scenarios/replay/opened_flight.hpp"
 #include "scenarios/replay/run_log.hpp"
 #include "scenarios/replay/run_replay.hpp"
 
@@ -41,7 +41,7 @@ struct Declination {
   std::string source;
 };
 
-Declination declination_of(const FlightArguments& arguments, const Px4Flight& px4,
+Declination declination_of(const FlightArguments& arguments, const OpenedFlight& opened,
                            std::vector<std::string>& remarks) {
   if (!arguments.declination.empty()) {
     const auto named = number_of(arguments.declination);
@@ -50,29 +50,32 @@ Declination declination_of(const FlightArguments& arguments, const Px4Flight& px
                         ": must be an angle in degrees, east positive");
     return {*named / kDegrees, "as named"};
   }
-  if (!px4.first_fix) return {0.0, "0, for there is no place to ask for"};
-  if (!px4.unix_time)
-    remarks.emplace_back("its fixes do not tell the date: the declination is that of the newest model");
-  const MagneticField field = px4.field_there();
-  const std::string edition = std::to_string(field.edition);
-  if (!field.current)
+  if (!opened.field) return {0.0, "0, for there is no place to ask for"};
+  if (!opened.dated)
+    remarks.emplace_back("nothing tells the date: the declination is that of the newest model");
+  const std::string edition = std::to_string(opened.field->edition);
+  if (!opened.field->current)
     remarks.push_back(
         "no World Magnetic Model that is known is meant for its date: the declination is that of " + edition);
-  return {field.declination, "World Magnetic Model " + edition + ", meant for the five years from then"};
+  return {opened.field->declination,
+          "World Magnetic Model " + edition + ", meant for the five years from then"};
 }
 
-/// The log of a PX4 autopilot.
-class Px4Source final : public ReplaySource {
+/// A flight that others recorded.
+class OpenedSource final : public ReplaySource {
  public:
-  explicit Px4Source(const FlightArguments& arguments) {
-    Px4Choice choice;
-    if (arguments.mag >= 0) choice.mag = arguments.mag;
-    if (arguments.gnss_delay >= 0.0) choice.gnss_delay = arguments.gnss_delay;
-    px4_ = read_px4_flight(UlogFile::read(arguments.flight), arguments.flight, choice);
-    declination_ = declination_of(arguments, px4_, px4_.flight.remarks);
+  OpenedSource(const FlightArguments& arguments,
+               const std::vector<std::pair<std::string, std::string>>& map_settings) {
+    FlightChoice choice;
+    if (arguments.mag >= 0) choice.px4.mag = arguments.mag;
+    if (arguments.gnss_delay >= 0.0) choice.px4.gnss_delay = arguments.gnss_delay;
+    choice.data = arguments.data;
+    choice.map_settings = map_settings;
+    opened_ = open_flight(arguments.flight, choice);
+    declination_ = declination_of(arguments, opened_, opened_.flight.remarks);
   }
 
-  const RecordedFlight& flight() const override { return px4_.flight; }
+  const RecordedFlight& flight() const override { return opened_.flight; }
 
   LoadedScenario load(const PilotChoice& choice, const autopilot::Modules& modules) const override {
     auto settings = choice.settings;
@@ -85,26 +88,21 @@ class Px4Source final : public ReplaySource {
 
   ReplayResult replay(const LoadedScenario& loaded, const autopilot::Modules& modules,
                       ReplayOptions options) const override {
-    return Replay(px4_.flight, loaded, modules, std::move(options)).run();
+    return Replay(opened_.flight, loaded, modules, std::move(options)).run();
   }
 
   std::vector<std::string> about() const override {
     std::vector<std::string> lines{
-        formatted("%s, %.1f s of IMU samples", px4_.flight.what.c_str(), to_seconds(px4_.flight.end))};
-    for (const MagCandidate& mag : px4_.mags) {
-      lines.push_back(
-          formatted("  magnetometer %d%s: %.1f uT, spread %.1f %%, off the earth's field by %.1f %%",
-                    mag.instance, px4_.mag == mag.instance ? " (taken)" : "", 1e6 * mag.strength,
-                    1e2 * mag.spread, 1e2 * mag.misfit));
-    }
+        formatted("%s, %.1f s of IMU samples", opened_.flight.what.c_str(), to_seconds(opened_.flight.end))};
+    for (const std::string& line : opened_.sensors) lines.push_back("  " + line);
     lines.push_back(formatted("  declination %+.2f deg (%s); fixes %.0f ms old on arrival",
                               declination_.angle * kDegrees, declination_.source.c_str(),
-                              1e3 * px4_.gnss_delay));
+                              1e3 * opened_.gnss_delay));
     return lines;
   }
 
  private:
-  Px4Flight px4_;
+  OpenedFlight opened_;
   Declination declination_;
 };
 
@@ -116,7 +114,8 @@ class RunSource final : public ReplaySource {
     const std::pair<const char*, bool> given[] = {{"--mag", arguments.mag >= 0},
                                                   {"--declination", !arguments.declination.empty()},
                                                   {"--gnss-delay", arguments.gnss_delay >= 0.0},
-                                                  {"--start", arguments.start > 0.0}};
+                                                  {"--start", arguments.start > 0.0},
+                                                  {"--data", !arguments.data.empty()}};
     for (const auto& [option, is_given] : given) {
       if (is_given)
         throw ConfigError(std::string(option) + ": is for flights of others; " + arguments.flight +
@@ -148,9 +147,12 @@ class RunSource final : public ReplaySource {
 
 }  // namespace
 
-std::unique_ptr<ReplaySource> ReplaySource::open(const FlightArguments& arguments) {
-  if (is_mcap(arguments.flight)) return std::make_unique<RunSource>(arguments);
-  return std::make_unique<Px4Source>(arguments);
+std::unique_ptr<ReplaySource> ReplaySource::open(
+    const FlightArguments& arguments, const std::vector<std::pair<std::string, std::string>>& map_settings) {
+  if (!is_mcap(arguments.flight)) return std::make_unique<OpenedSource>(arguments, map_settings);
+  if (!map_settings.empty())
+    throw ConfigError("--set " + map_settings.front().first + ": is for a column map, MAP.toml");
+  return std::make_unique<RunSource>(arguments);
 }
 
 }  // namespace ironbird::scenarios

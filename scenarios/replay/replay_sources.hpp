@@ -14,6 +14,7 @@ namespace ironbird::scenarios {
 /// What the command line says of a flight that is to be replayed. No `describe`: CLI11 fills it.
 struct FlightArguments {
   std::string flight;
+  std::string data;          ///< folder of a column map's tables; empty: the map's own
   int mag = -1;              ///< instance; -1: not named
   std::string declination;   ///< deg; empty: not named
   double gnss_delay = -1.0;  ///< s; negative: not named
@@ -29,8 +30,10 @@ struct PilotChoice {
 /// A recorded flight, whoever recorded it, and how it is replayed.
 class ReplaySource {
  public:
-  /// Reads what the command line names, by what is in it. @throws UserError, ConfigError
-  static std::unique_ptr<ReplaySource> open(const FlightArguments& arguments);
+  /// Reads what the command line names, by what it is. @throws UserError, ConfigError
+  /// @param map_settings  paths and texts laid over a column map
+  static std::unique_ptr<ReplaySource> open(
+      const FlightArguments& arguments, const std::vector<std::pair<std::string, std::string>>& map_settings);
   virtual ~ReplaySource() = default;
 
   virtual const RecordedFlight& flight() const = 0;

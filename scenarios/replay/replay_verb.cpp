@@ -97,13 +97,28 @@ std::vector<Variant> variants_of(const ReplayArguments& arguments) {
   return variants;
 }
 
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// Does a setting change the column map, and not the scenario?
+bool is_of_map(const std::pair<std::string, std::string>& setting) {
+  return setting.first.starts_with("map.");
+}
+
+Settings map_settings_of(const ReplayArguments& arguments) {
+  Settings settings = split_settings(arguments.settings);
+  std::erase_if(settings, [](const auto& setting) { return !is_of_map(setting); });
+  return settings;
+}
+
 PilotChoice choice_of(const ReplayArguments& arguments, const Variant& variant) {
   std::vector<std::string> wanted = arguments.settings;
   wanted.insert(wanted.end(), variant.settings.begin(), variant.settings.end());
   PilotChoice choice{variant.scenario, {}};
   if (choice.scenario.empty()) choice.scenario = arguments.scenario;
   if (!arguments.vehicle.empty()) choice.settings.emplace_back("vehicle", arguments.vehicle);
-  for (auto& setting : split_settings(wanted)) choice.settings.push_back(std::move(setting));
+  for (auto& setting : split_settings(wanted)) {
+    if (!is_of_map(setting)) choice.settings.push_back(std::move(setting));
+  }
   return choice;
 }
 
@@ -148,7 +163,7 @@ class ReplayWork {
         name_(name_of_flight(arguments.flight.flight)),
         folder_(std::filesystem::path(arguments.out) / name_) {
     for (const std::string& bound : arguments.bounds) bounds_.push_back(parse_replay_bound(bound));
-    source_ = ReplaySource::open(arguments.flight);
+    source_ = ReplaySource::open(arguments.flight, map_settings_of(arguments));
   }
 
   Replayed run(const Variant& variant, RunListener& listener) const {
@@ -249,9 +264,12 @@ Verb replay_verb() {
         auto arguments = std::make_shared<ReplayArguments>();
         FlightArguments& flight = arguments->flight;
         options
-            .option("flight", flight.flight,
-                    "log of a PX4 autopilot, FLIGHT.ulg, or of a run of ours, flight.mcap")
+            .option(
+                "flight", flight.flight,
+                "log of a PX4 autopilot, FLIGHT.ulg, or of a run of ours, flight.mcap; or column map of a "
+                "flight in tables, MAP.toml")
             .required();
+        options.option("--data", flight.data, "folder of the tables of a column map; else the map's own");
         options.option("--vehicle", arguments->vehicle, "folder of the vehicle whose autopilot stands in");
         options.option("--scenario", arguments->scenario,
                        "which autopilot, with which parameters; its flight is not flown");
@@ -292,6 +310,7 @@ Verb replay_verb() {
             "  ironbird replay out/three_waypoints/flight.mcap --out again\n"
             "  ironbird replay flight.ulg --set autopilot.estimator.kind=error_state\n"
             "  ironbird replay flight.ulg --compare ekf error_state\n"
+            "  ironbird replay columns.toml --data tables --set map.made.seed=2\n"
             "  ironbird replay flight.ulg --mag 1 --window 5:60 --at-most horizontal_difference_rms_m=0.25");
         return [arguments](const autopilot::Modules& modules) { return replay(*arguments, modules); };
       }};

@@ -183,5 +183,37 @@ INSTANTIATE_TEST_SUITE_P(Attitudes, AttitudeFromVectorsTest,
                                            AttitudeCase{"Inverted", {3.0, 0.1, 0.4}, {0.0, 0.0, 0.0}}),
                          [](const auto& case_) { return std::string(case_.param.name); });
 
+TEST(AlignmentTest, TakesInMotionTheForcesOfTheTimeThatTheFixesTellOf) {
+  // GIVEN a level vehicle that speeds up for half a second, and then goes on; and fixes from then on
+  AidingParams params;
+  params.alignment.fixes = 2;
+  params.alignment.baro_samples = 1;
+  Alignment alignment;
+  alignment.restart_in_motion();
+  bool found = false;
+  int k = 0;
+  // WHEN the filter starts
+  for (; k < 300 && !found; ++k) {
+    const bool speeds_up = k < 50;
+    SensorFrame frame;
+    frame.imu.stamp = milliseconds(10 * k);
+    frame.imu.f_B = Vector3(speeds_up ? 4.0 : 0.0, 0.0, -params.gravity);
+    frame.mag = MagSample{frame.imu.stamp, Vector3(0.4, 0.0, 0.9)};
+    frame.baro = BaroSample{frame.imu.stamp, 100000.0, 288.15};
+    if (!speeds_up && k % 20 == 0) {
+      GnssSample fix;
+      fix.stamp = frame.imu.stamp;
+      fix.v_NB_N = Vector3(2.0, 0.0, 0.0);
+      fix.fix = GnssFix::kFix3D;
+      frame.gnss = fix;
+    }
+    found = alignment.add(frame, 0.01, params);
+  }
+  // THEN it is level, and the fixes tell of half a second at least
+  ASSERT_TRUE(found);
+  EXPECT_LT(euler_from_quaternion(alignment.start().q_NB).norm(), kRoundOff);
+  EXPECT_EQ(k, 121) << "fixes at 0.6, 0.8, 1.0 and 1.2 s";
+}
+
 }  // namespace
 }  // namespace ironbird::autopilot
