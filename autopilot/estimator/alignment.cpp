@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "autopilot/math/angles.hpp"
 #include "autopilot/math/local_map.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kMostStillForceError = 1.0;  // m/s^2, of |f| - g at rest
 constexpr double kMostStillRate = 0.35;       // rad/s, gyro bias plus vibration at rest
+constexpr double kMostAmbiguity = 0.5;        // one heading has the field to the north, one to the south
 constexpr double kLeastFence = 2.0;           // Pa, so that a quantised sensor has no outliers
 constexpr double kStaleWindow = 10.0;         // durations, on top of what slow sensors need
 constexpr double kSlowestFixes = 1.0;         // s, from one fix to the next
@@ -38,8 +40,8 @@ double quantile(const std::array<double, 512>& sorted, int count, double fractio
 
 }  // namespace
 
-Quaternion attitude_from_vectors(const Vector3& f_B, const Vector3& a_N, const Vector3& m_B,
-                                 double declination, double gravity) {
+AttitudeFromVectors attitude_from_vectors(const Vector3& f_B, const Vector3& a_N, const Vector3& m_B,
+                                          double declination, double gravity) {
   const Vector3 up_N = (a_N - gravity * Vector3::UnitZ()).normalized();  // direction of the specific force
   const Quaternion q_any = Quaternion::FromTwoVectors(f_B, up_N);
   // What is left is a turn by alpha about up_N that brings the field into the plane of magnetic north.
@@ -51,18 +53,22 @@ Quaternion attitude_from_vectors(const Vector3& f_B, const Vector3& a_N, const V
   const Vector3 north_N(std::cos(declination), std::sin(declination), 0.0);
   const double amplitude = std::hypot(east_N.dot(across), east_N.dot(turned));
   const double phase = std::atan2(east_N.dot(turned), east_N.dot(across));
+  // At its clamp no heading is right, and what is nearest to it is taken.
   const double cosine = amplitude > 0.0 ? std::clamp(-east_N.dot(along) / amplitude, -1.0, 1.0) : 0.0;
   const double half_opening = std::acos(cosine);
+  const auto northward = [&](double alpha) {
+    return north_N.dot(along + across * std::cos(alpha) + turned * std::sin(alpha));
+  };
   double alpha = phase + half_opening;
-  double best = -2.0;
-  for (const double candidate : {phase + half_opening, phase - half_opening}) {
-    const double northward = north_N.dot(along + across * std::cos(candidate) + turned * std::sin(candidate));
-    if (northward > best) {
-      best = northward;
-      alpha = candidate;
-    }
+  double best = northward(alpha);
+  double other = northward(phase - half_opening);
+  if (other > best) {
+    std::swap(best, other);
+    alpha = phase - half_opening;
   }
-  return (Quaternion(Eigen::AngleAxisd(alpha, up_N)) * q_any).normalized();
+  const double both_north = best > 0.0 ? 0.5 * (1.0 + other / best) : 1.0;
+  return {(Quaternion(Eigen::AngleAxisd(alpha, up_N)) * q_any).normalized(),
+          std::clamp(both_north, std::abs(cosine), 1.0)};
 }
 
 double mean_without_outliers(std::array<double, 512>& values, int count) {
@@ -96,6 +102,7 @@ void Alignment::restart_in_motion() {
 void Alignment::begin_window(Time now) {
   window_ = Window{};
   window_.begin = now;
+  window_.impulse.begin(now);
 }
 
 void Alignment::add_imu(const ImuSample& imu, double dt) {
@@ -116,21 +123,30 @@ void Alignment::add_imu(const ImuSample& imu, double dt) {
   w.w_sum_B += dw_B;
   w.f_square_sum_B += df_B.cwiseProduct(df_B);
   w.w_square_sum_B += dw_B.cwiseProduct(dw_B);
-  w.f_sum_begin += w.turned * imu.f_B;
+  if (w.imu > 1) w.impulse.add(imu.stamp, w.turned * imu.f_B, dt);
 }
 
 void Alignment::add_fix(const GnssSample& fix) {
   Window& w = window_;
-  if (w.fixes == 0) {
-    w.first_fix = fix;
-    w.f_sum_begin.setZero();
-  }
+  if (w.fixes == 0) w.first_fix = fix;
   ++w.fixes;
   w.last_fix = fix;
+  if (!w.told && fix.stamp >= w.impulse.oldest()) {
+    w.told = true;
+    w.told_begin = fix.stamp;
+    w.told_begin_v_N = fix.v_NB_N;
+    w.told_begin_impulse = w.impulse.at(fix.stamp);
+  }
+  w.told_end_impulse = w.impulse.at(fix.stamp);
   w.latitude_sum += fix.latitude - w.first_fix.latitude;
   w.longitude_sum += shortest_difference(fix.longitude, w.first_fix.longitude);
   w.altitude_sum += fix.altitude - w.first_fix.altitude;
   w.fastest = std::max(w.fastest, fix.v_NB_N.norm());
+}
+
+/// How long the time is that the fixes tell of, s.
+double Alignment::told_span() const {
+  return window_.told ? seconds(window_.last_fix.stamp - window_.told_begin) : 0.0;
 }
 
 bool Alignment::is_still(const AidingParams& params) const {
@@ -152,7 +168,8 @@ void Alignment::find_at_rest(const AidingParams& params) {
   start_.origin.longitude = wrap(w.first_fix.longitude + w.longitude_sum / w.fixes);
   start_.origin.altitude = w.first_fix.altitude + w.altitude_sum / w.fixes;
   start_.q_NB =
-      attitude_from_vectors(f_mean_B, Vector3::Zero(), w.m_sum_B, params.mag.declination, params.gravity);
+      attitude_from_vectors(f_mean_B, Vector3::Zero(), w.m_sum_B, params.mag.declination, params.gravity)
+          .q_NB;
   start_.m_B = w.m_sum_B.normalized();
   start_.gyro_bias_B = w.w_first_B + w.w_sum_B / w.imu;
   if (params.alignment.remove_accelerometer_offset) {
@@ -161,27 +178,31 @@ void Alignment::find_at_rest(const AidingParams& params) {
   start_.origin_pressure = mean_without_outliers(pressures_, w.baro);
 }
 
-void Alignment::find_in_motion(const AidingParams& params, Time now) {
+bool Alignment::find_in_motion(const AidingParams& params, Time now) {
   const Window& w = window_;
-  const double span = seconds(w.last_fix.stamp - w.first_fix.stamp);
-  const Vector3 a_N =
-      span > 0.0 ? Vector3((w.last_fix.v_NB_N - w.first_fix.v_NB_N) / span) : Vector3(Vector3::Zero());
+  const double span = told_span();
+  const Vector3 a_N = (w.last_fix.v_NB_N - w.told_begin_v_N) / span;
+  const Vector3 f_begin = (w.told_end_impulse - w.told_begin_impulse) / span;
+  const auto [q_N_begin, ambiguity] =
+      attitude_from_vectors(f_begin, a_N, w.m_sum_begin, params.mag.declination, params.gravity);
+  if (ambiguity > kMostAmbiguity) return false;
   start_ = StartState{};
   start_.moving = true;
   start_.origin.known = true;
   start_.origin.latitude = w.first_fix.latitude;
   start_.origin.longitude = w.first_fix.longitude;
   start_.origin.altitude = w.first_fix.altitude + w.altitude_sum / w.fixes;
-  const Quaternion q_N_begin =
-      attitude_from_vectors(w.f_sum_begin, a_N, w.m_sum_begin, params.mag.declination, params.gravity);
   start_.q_NB = q_N_begin * w.turned;
   start_.m_B = w.turned.conjugate() * w.m_sum_begin.normalized();
   const double age = std::clamp(seconds(now - w.last_fix.stamp), 0.0, 1.0);
-  start_.v_NB_N = w.last_fix.v_NB_N + a_N * age;
+  const Vector3 since_N = q_N_begin * (w.impulse.at(now) - w.told_end_impulse);
+  start_.v_NB_N = w.last_fix.v_NB_N + since_N + params.gravity * age * Vector3::UnitZ();
   const Vector2 p_N = local_from_geodetic(w.last_fix.latitude, w.last_fix.longitude, start_.origin);
   start_.origin_pressure = mean_without_outliers(pressures_, w.baro);
   const double weight = standard_density(start_.origin.altitude) * params.gravity;  // Pa/m
-  start_.p_NB_N << p_N + start_.v_NB_N.head<2>() * age, (w.last_pressure - start_.origin_pressure) / weight;
+  start_.p_NB_N << p_N + 0.5 * (w.last_fix.v_NB_N + start_.v_NB_N).head<2>() * age,
+      (w.last_pressure - start_.origin_pressure) / weight;
+  return true;
 }
 
 void Alignment::collect(const SensorFrame& frame, double dt) {
@@ -227,11 +248,8 @@ bool Alignment::add(const SensorFrame& frame, double dt, const AidingParams& par
     find_at_rest(params);
     return true;
   }
-  const double told = seconds(window_.last_fix.stamp - window_.first_fix.stamp);
-  if (complete && may_move && told >= 0.5 * wanted.duration) {
-    find_in_motion(params, now);
+  if (complete && may_move && told_span() >= 0.5 * wanted.duration && find_in_motion(params, now))
     return true;
-  }
   if ((!still && !may_move) || length > stale_after(wanted)) begin_window(now);
   return false;
 }

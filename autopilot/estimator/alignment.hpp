@@ -3,10 +3,27 @@
 #include <array>
 
 #include "autopilot/estimator/aiding_params.hpp"
+#include "autopilot/estimator/impulse_history.hpp"
 #include "autopilot/types/sensor_frame.hpp"
 #include "autopilot/types/state_estimate.hpp"
 
 namespace ironbird::autopilot {
+
+/// An attitude out of two directions, and how well the second of them could tell the heading.
+struct AttitudeFromVectors {
+  Quaternion q_NB = Quaternion::Identity();
+  double ambiguity = 0.0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("q_NB", self.q_NB, "1", "attitude of B in N");
+    visit("ambiguity", self.ambiguity, "1",
+          "of the two headings at which the field lies in its plane; 0: at one of them it points as far "
+          "south as "
+          "at the other north; above 0.5: less than 120 degrees apart, or both north; 1: one, or none",
+          0.0, 1.0);
+  }
+};
 
 /// The attitude that turns the measured directions into the known ones: the specific force `f_B` into
 /// a_N - g e_d, and the magnetic field `m_B` into the vertical plane of magnetic north. Closed form.
@@ -14,8 +31,8 @@ namespace ironbird::autopilot {
 /// @param a_N  acceleration of the vehicle, m/s^2; zero at rest
 /// @param m_B  magnetic field, any unit, not zero
 /// @param declination  rad
-Quaternion attitude_from_vectors(const Vector3& f_B, const Vector3& a_N, const Vector3& m_B,
-                                 double declination, double gravity);
+AttitudeFromVectors attitude_from_vectors(const Vector3& f_B, const Vector3& a_N, const Vector3& m_B,
+                                          double declination, double gravity);
 
 /// The mean of those of the first `count` values that are no outliers: within twice the interquartile range
 /// (but at least 2) of the quartiles. Works for any count >= 1. Sorts the values.
@@ -50,8 +67,10 @@ struct StartState {
 
 /// Finds the first state of a filter: at rest from means of accelerometer, gyro, compass, barometer and
 /// satellite fixes; in motion from the same with the rotation taken out and the acceleration from the
-/// satellite velocity. The fixes have to tell of half of the least time of averaging, and forces count from
-/// the first of them on: in a weave the acceleration of one part says nothing of another.
+/// satellite velocity. The fixes have to tell of half of the least time of averaging, and exactly the forces
+/// of that time count, whenever the fixes arrived: in a turn the acceleration of one part says nothing of
+/// another. While the vehicle accelerates so hard that the steep field leaves two headings open, it goes on
+/// averaging: over a longer time the mean acceleration is less.
 ///
 /// At rest the accelerometer measures -R^T g e_d + bias. Tilt and the horizontal bias cannot be told apart
 /// there, and are not: tilt takes all of it. Only |f| - g along f is seen, and is kept as the accelerometer's
@@ -80,13 +99,19 @@ class Alignment {
     Vector3 f_first_B = Vector3::Zero();
     Vector3 w_first_B = Vector3::Zero();
     Quaternion turned = Quaternion::Identity();  ///< B now to B at the beginning
-    Vector3 f_sum_begin = Vector3::Zero();       ///< in B at the beginning, from the first fix on
+    ImpulseHistory impulse;                      ///< in B at the beginning
     Vector3 m_sum_begin = Vector3::Zero();
     Vector3 m_sum_B = Vector3::Zero();
     int mag = 0;
     int fixes = 0;
     GnssSample first_fix;
     GnssSample last_fix;
+    // What the fixes tell of: from when to when, and the impulse and change of velocity of that time.
+    bool told = false;
+    Time told_begin{0};
+    Vector3 told_begin_v_N = Vector3::Zero();
+    Vector3 told_begin_impulse = Vector3::Zero();
+    Vector3 told_end_impulse = Vector3::Zero();
     double latitude_sum = 0.0;
     double longitude_sum = 0.0;
     double altitude_sum = 0.0;
@@ -99,9 +124,11 @@ class Alignment {
   void add_imu(const ImuSample& imu, double dt);
   void add_fix(const GnssSample& fix);
   void begin_window(Time now);
+  double told_span() const;
   bool is_still(const AidingParams& params) const;
   void find_at_rest(const AidingParams& params);
-  void find_in_motion(const AidingParams& params, Time now);
+  /// @return false when the heading is open
+  bool find_in_motion(const AidingParams& params, Time now);
 
   Window window_;
   std::array<double, 512> pressures_{};

@@ -229,7 +229,7 @@ Vector3 alignment_error(const Point& p, const Vector& bias) {
   const Vector3 f_B = rotation_NB(trig(p)).transpose() * Vector3(0.0, 0.0, -kGravity);
   const double declination = std::atan2(kField.y(), kField.x());
   const auto aligned = [&](const Vector3& f, const Vector3& m) {
-    return attitude_from_vectors(f, Vector3::Zero(), m, declination, kGravity);
+    return attitude_from_vectors(f, Vector3::Zero(), m, declination, kGravity).q_NB;
   };
   const Quaternion found = aligned(f_B, field_B(p));
   return logarithm(found.conjugate() * aligned(f_B - bias.head<3>(), field_B(p) - bias.tail<3>()));

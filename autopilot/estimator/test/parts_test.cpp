@@ -162,26 +162,42 @@ struct AttitudeCase {
   Vector3 a_N;
 };
 
-class AttitudeFromVectorsTest : public ::testing::TestWithParam<AttitudeCase> {};
+class AttitudeFromVectorsCaseTest : public ::testing::TestWithParam<AttitudeCase> {};
 
-TEST_P(AttitudeFromVectorsTest, FindsTheAttitudeThatMadeTheReadings) {
+TEST_P(AttitudeFromVectorsCaseTest, FindsTheAttitudeThatMadeTheReadings) {
   constexpr double kGravity = 9.81;
   constexpr double kDeclination = 0.2;
   const Matrix3 R_NB = rotation_NB(EulerTrig(GetParam().theta));
   const Vector3 field_N(0.4 * std::cos(kDeclination), 0.4 * std::sin(kDeclination), 0.9);
   const Vector3 f_B = R_NB.transpose() * (GetParam().a_N - kGravity * Vector3::UnitZ());
   const Quaternion q_NB =
-      attitude_from_vectors(f_B, GetParam().a_N, R_NB.transpose() * field_N, kDeclination, kGravity);
+      attitude_from_vectors(f_B, GetParam().a_N, R_NB.transpose() * field_N, kDeclination, kGravity).q_NB;
   EXPECT_LT((q_NB.toRotationMatrix() - R_NB).norm(), 1.0e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Attitudes, AttitudeFromVectorsTest,
+INSTANTIATE_TEST_SUITE_P(Attitudes, AttitudeFromVectorsCaseTest,
                          ::testing::Values(AttitudeCase{"Level", {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}},
                                            AttitudeCase{"Tilted", {0.2, -0.3, 2.5}, {0.0, 0.0, 0.0}},
                                            AttitudeCase{"South", {0.0, 0.1, 3.14159}, {0.0, 0.0, 0.0}},
                                            AttitudeCase{"Accelerating", {0.3, 0.2, -1.0}, {2.0, -1.5, 0.5}},
                                            AttitudeCase{"Inverted", {3.0, 0.1, 0.4}, {0.0, 0.0, 0.0}}),
                          [](const auto& case_) { return std::string(case_.param.name); });
+
+TEST(AttitudeFromVectorsTest, SaysWhenTheFieldLeavesTheHeadingOpen) {
+  // The field of 48 degrees north dips by 73 degrees: less than a lean of 17 degrees is between it and down.
+  const Vector3 field_N(std::cos(1.274), 0.0, std::sin(1.274));
+  const auto ambiguity = [&](const Vector3& a_N) {
+    return attitude_from_vectors(a_N - 9.81 * Vector3::UnitZ(), a_N, field_N, 0.0, 9.81).ambiguity;
+  };
+  EXPECT_LT(ambiguity(Vector3::Zero()), kRoundOff);
+  EXPECT_LT(ambiguity({4.0, 0.0, 0.0}), kRoundOff) << "leaning away from the field";
+  EXPECT_GT(ambiguity({-4.0, 0.0, 0.0}), 0.5) << "towards it and beyond: both headings have it to the north";
+  EXPECT_LT(ambiguity({0.0, 1.0, 0.0}), 0.5);
+  EXPECT_GT(ambiguity({0.0, 2.0, 0.0}), 0.5);
+  EXPECT_GT(ambiguity({0.0, 4.0, 0.0}), 0.7);
+  EXPECT_LT(ambiguity({4.0, 0.0, 0.0}), kRoundOff) << "leaning away from the field";
+  EXPECT_GT(ambiguity({-4.0, 0.0, 0.0}), 0.5) << "towards it and beyond: both headings have it to the north";
+}
 
 TEST(AlignmentTest, TakesInMotionTheForcesOfTheTimeThatTheFixesTellOf) {
   // GIVEN a level vehicle that speeds up for half a second, and then goes on; and fixes from then on
