@@ -41,7 +41,9 @@ struct Px4Flight {
   RecordedFlight flight;
   std::vector<MagCandidate> mags;   ///< by instance
   std::optional<int> mag;           ///< the one that was taken; none: there is none
+  std::string mag_source;           ///< why that one
   double gnss_delay = 0.0;          ///< s
+  std::string gnss_delay_source;    ///< who says so
   std::optional<double> unix_time;  ///< s, UTC, of the first fix that tells it
   std::optional<hil_bridge::rosflight::RosflightGnss> first_fix;  ///< that is of use
   bool simulated = false;                                         ///< no vehicle flew

@@ -116,15 +116,19 @@ bool is_usable(const rosflight::RosflightGnss& fix) {
   return autopilot::is_usable(static_cast<autopilot::GnssFix>(fix.fix_type));
 }
 
-double delay_of(Px4Log& log, std::optional<double> named) {
-  if (named) return *named;
-  const auto told = log.file.parameter("EKF2_GPS_DELAY");  // ms
-  if (!told) return kUsualDelay;
+void find_delay(Px4Log& log, std::optional<double> named, Px4Flight& flight) {
+  flight.gnss_delay = named.value_or(kUsualDelay);
+  flight.gnss_delay_source = named ? "as named" : "PX4's own default";
+  const auto told = named ? std::nullopt : log.file.parameter("EKF2_GPS_DELAY");  // ms
+  if (!told) return;
   const double delay = 1e-3 * *told;
-  if (delay >= 0.0 && delay <= kLongestDelay) return delay;
+  if (delay >= 0.0 && delay <= kLongestDelay) {
+    flight.gnss_delay = delay;
+    flight.gnss_delay_source = "EKF2_GPS_DELAY of the log";
+    return;
+  }
   log.remark("its EKF2_GPS_DELAY of " + std::to_string(*told) +
              " ms cannot be: fixes are taken to be 110 ms old");
-  return kUsualDelay;
 }
 
 /// Samples of one magnetometer, tesla.
@@ -180,12 +184,22 @@ std::optional<int> choose(const std::vector<MagCandidate>& mags, std::optional<i
                   (there.empty() ? "; it has none" : "; there are: " + there));
 }
 
+/// Why the magnetometer that was taken was taken.
+std::string mag_source(const Px4Flight& flight, bool named) {
+  if (named) return "as named";
+  if (!flight.mag) return "the log has none";
+  const bool several = flight.mags.size() > 1;
+  if (!several) return "the only one of the log";
+  return flight.first_fix ? "its strength fits the earth's field best and spreads least"
+                          : "its strength spreads least; there is no place to ask for the earth's";
+}
+
 }  // namespace
 
 std::vector<Arrival> read_px4_gnss(Px4Log& log, std::optional<double> delay, Px4Flight& flight) {
   const Px4Records fixes = log.first_of({"vehicle_gps_position", "sensor_gps"});
   const GnssReader reader(fixes);
-  flight.gnss_delay = delay_of(log, delay);
+  find_delay(log, delay, flight);
   const Time age(std::llround(flight.gnss_delay * 1e9));
   std::vector<Arrival> messages;
   std::size_t without_velocity = 0;
@@ -232,6 +246,7 @@ std::vector<Arrival> read_px4_mag(Px4Log& log, std::optional<int> named, Px4Flig
   std::sort(flight.mags.begin(), flight.mags.end(),
             [](const MagCandidate& one, const MagCandidate& other) { return one.instance < other.instance; });
   flight.mag = choose(flight.mags, named, log.name);
+  flight.mag_source = mag_source(flight, named.has_value());
   // Before 1.8 the field stood beside the rates.
   const Px4Records mag =
       flight.mag ? log.records("vehicle_magnetometer", *flight.mag) : log.records("sensor_combined");

@@ -67,6 +67,8 @@ class Replay {
   std::optional<Comparison> comparison_;  // none: there is nothing to compare with
   std::size_t next_attitude_ = 0;
   std::size_t next_position_ = 0;
+  std::size_t next_phase_ = 0;
+  bool origin_written_ = false;
   std::optional<hil_bridge::Time> ready_;  // when there was an estimate
   int losses_ = 0;
   bool lost_ = false;

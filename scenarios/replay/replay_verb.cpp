@@ -22,6 +22,7 @@
 #include "scenarios/config/config_error.hpp"
 #include "scenarios/config/file_search.hpp"
 #include "scenarios/replay/magnetic_field.hpp"
+#include "scenarios/replay/provenance.hpp"
 #include "scenarios/replay/px4_flight.hpp"
 #include "scenarios/replay/replay.hpp"
 #include "scenarios/replay/replay_verdict.hpp"
@@ -218,6 +219,8 @@ class ReplayWork {
     done.result = Replay(px4_.flight, loaded, modules_, options).run();
     done.verdict = judge_replay(done.result,
                                 {name, loaded.scenario.title, loaded.scenario.seed, loaded.digest}, bounds_);
+    done.verdict.flight = provenance_of(px4_, arguments_.flight, declination_.angle, declination_.source,
+                                        done.result.window, window_.has_value());
     write_verdict(done.verdict, done.folder / "verdict.json");
     listener.judged(done.verdict);
     return done;
