@@ -190,7 +190,7 @@ std::string mag_source(const Px4Flight& flight, bool named) {
   if (!flight.mag) return "the log has none";
   const bool several = flight.mags.size() > 1;
   if (!several) return "the only one of the log";
-  return flight.first_fix ? "its strength fits the earth's field best and spreads least"
+  return flight.first_fix ? "it fits the earth's field best, strength and spread together"
                           : "its strength spreads least; there is no place to ask for the earth's";
 }
 
@@ -253,12 +253,18 @@ std::vector<Arrival> read_px4_mag(Px4Log& log, std::optional<int> named, Px4Flig
   const auto field = mag.find("magnetometer_ga");
   if (!field) log.remark("it has no magnetometer: the heading cannot be known, and no filter starts");
   std::vector<Arrival> messages;
+  std::size_t no_numbers = 0;
   for (std::size_t k = 0; field && k < mag.size(); ++k) {
     const Time when = mag.measured(k);
     if (!log.is_within(when)) continue;
     const Eigen::Vector3f m = mag.vector(k, field).cast<float>();
+    if (!m.allFinite()) {
+      ++no_numbers;
+      continue;
+    }
     messages.push_back({when, rosflight::SmallMag{m.x(), m.y(), m.z()}});
   }
+  log.remark_count(no_numbers, "of its samples of the field are no numbers: passed over");
   return messages;
 }
 
@@ -270,16 +276,22 @@ std::vector<Arrival> read_px4_baro(Px4Log& log) {
   if (!pressure && !height)
     log.remark("it has no barometer: the height cannot be known, and no filter starts");
   std::vector<Arrival> messages;
+  std::size_t no_numbers = 0;
   for (std::size_t k = 0; (pressure || height) && k < air.size(); ++k) {
     const Time when = air.measured(k);
     if (!log.is_within(when)) continue;
     double pascal = pressure ? air.number(k, pressure) : autopilot::standard_pressure(air.number(k, height));
+    if (!std::isfinite(pascal)) {
+      ++no_numbers;
+      continue;
+    }
     constexpr double kLessThanAnyPascal = 2000.0;  // older versions tell hectopascal
     if (pascal < kLessThanAnyPascal) pascal *= 100.0;
     messages.push_back(
         {when, rosflight::SmallBaro{0.0F, static_cast<float>(pascal),
                                     or_else(air.number(k, temperature) + kZeroCelsius, kUsualTemperature)}});
   }
+  log.remark_count(no_numbers, "of its samples of the pressure are no numbers: passed over");
   return messages;
 }
 
