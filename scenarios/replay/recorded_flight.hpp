@@ -97,6 +97,12 @@ struct RecordedOrigin {
 struct Interval {
   hil_bridge::Time begin{};
   hil_bridge::Time end{};
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("begin", self.begin, "ns", "from when");
+    visit("end", self.end, "ns", "until when, included");
+  }
 };
 
 /// A flight that somebody else's autopilot or recorder logged: its sensors as a flight-control unit would

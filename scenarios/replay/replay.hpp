@@ -26,10 +26,20 @@ struct ReplayOptions {
 struct ReplayResult {
   std::vector<Metric> metrics;
   Interval window;
-  std::vector<std::string> remarks;  ///< what was not as it should be, a line each
-  std::optional<double> ready;       ///< s, when there was an estimate; none: never
+  std::vector<std::string> remarks;
+  std::optional<double> ready;
   bool lost_at_end = false;
   bool interrupted = false;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("metrics", self.metrics, "", "how far ours is from the recorded one");
+    visit("window", self.window, "", "what was compared");
+    visit("remarks", self.remarks, "", "what was not as it should be, a line each");
+    visit("ready", self.ready, "s", "when there was an estimate; none: never");
+    visit("lost_at_end", self.lost_at_end, "1", "the estimator says that it is lost");
+    visit("interrupted", self.interrupted, "1", "somebody asked to stop");
+  }
 };
 
 /// The window that counts unless another is named: from three seconds after the first take-off to a second

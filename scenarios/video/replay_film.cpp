@@ -81,9 +81,8 @@ class RecordedTrack {
  public:
   explicit RecordedTrack(const Log& log) {
     if (!has(log, kPosition) || !has(log, kAttitude)) return;
-    position_.emplace(*log.topic(kPosition),
-                      std::vector<std::string>{"p_NB_N.x", "p_NB_N.y", "p_NB_N.z", "position_known",
-                                               "height_known"});
+    position_.emplace(*log.topic(kPosition), std::vector<std::string>{"p_NB_N.x", "p_NB_N.y", "p_NB_N.z",
+                                                                      "position_known", "height_known"});
     attitude_.emplace(*log.topic(kAttitude),
                       std::vector<std::string>{"q_NB.w", "q_NB.x", "q_NB.y", "q_NB.z"});
   }
@@ -188,9 +187,8 @@ class ReplayDirector {
   }
 
   void find_ground(const FilmScript& script) {
-    const auto standing =
-        std::find_if(script.frames.begin(), script.frames.end(),
-                     [this](const FilmFrame& frame) { return !is_airborne(frame.time); });
+    const auto standing = std::find_if(script.frames.begin(), script.frames.end(),
+                                       [this](const FilmFrame& frame) { return !is_airborne(frame.time); });
     if (standing != script.frames.end()) {
       ground_down_ = standing->truth.pose.p_NB_N.z();
     } else if (has(log_, kOrigin)) {
@@ -231,9 +229,9 @@ class ReplayDirector {
     if (!has(log_, kFix)) return;
     const LogTopic& fixes = *log_.topic(kFix);
     for (std::size_t i = 0; i < fixes.time().size(); ++i) {
-      script.fixes.push_back({fixes.time()[i],
-                              {fixes.column("p_N.x")[i], fixes.column("p_N.y")[i],
-                               fixes.column("p_N.z")[i] - ground_down_}});
+      script.fixes.push_back(
+          {fixes.time()[i],
+           {fixes.column("p_N.x")[i], fixes.column("p_N.y")[i], fixes.column("p_N.z")[i] - ground_down_}});
     }
   }
 

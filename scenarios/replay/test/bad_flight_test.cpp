@@ -22,7 +22,8 @@ struct Outcome {
   json verdict;  ///< null: there is none
 };
 
-Outcome replay(const std::filesystem::path& log, const TemporaryFolder& folder, const std::string& more = "") {
+Outcome replay(const std::filesystem::path& log, const TemporaryFolder& folder,
+               const std::string& more = "") {
   Outcome outcome;
   outcome.said = run_shell(kProgram + " replay '" + log.string() + "' --no-report --out '" +
                            (folder / "out").string() + "' " + more);
@@ -38,10 +39,10 @@ TEST(BadFlightTest, SaysInOneLineWhatIsNoLog) {
     const char* says;
   };
   const std::string magic("ULog\x01\x12\x35\x01", 8);
-  for (const NoLog& bad : {NoLog{"text.ulg", "timestamp,x,y\n1,2,3\n", "is not a ULog"},
-                           NoLog{"empty.ulg", "", "empty"},
-                           NoLog{"header.ulg", magic, "is cut after 8 bytes"},
-                           NoLog{"nothing.ulg", magic + std::string(8, '\0'), "no IMU samples"}}) {
+  for (const NoLog& bad :
+       {NoLog{"text.ulg", "timestamp,x,y\n1,2,3\n", "is not a ULog"}, NoLog{"empty.ulg", "", "empty"},
+        NoLog{"header.ulg", magic, "is cut after 8 bytes"},
+        NoLog{"nothing.ulg", magic + std::string(8, '\0'), "no IMU samples"}}) {
     const TemporaryFolder folder;
     const Outcome outcome = replay(folder.write(bad.name, bad.text), folder);
     EXPECT_EQ(outcome.said.exit_code, 2) << bad.name;
@@ -95,7 +96,8 @@ TEST(BadFlightTest, SaysWhatAFlightLacks) {
 
 TEST(BadFlightTest, GoesOnAfterTimesAndNumbersThatCannotBe) {
   const TemporaryFolder folder;
-  const Outcome back = replay(FlightByHand{.clock_steps_back = true}.write(folder / "back.ulg"), folder, "--window 2:4");
+  const Outcome back =
+      replay(FlightByHand{.clock_steps_back = true}.write(folder / "back.ulg"), folder, "--window 2:4");
   EXPECT_EQ(back.said.exit_code, 0) << back.said.text;
   EXPECT_THAT(back.said.text, HasSubstr("its clock steps back by 3.0 s after 4.0 s"));
   const Outcome nan = replay(FlightByHand{.no_numbers = true}.write(folder / "nan.ulg"), folder);
@@ -112,8 +114,8 @@ TEST(BadFlightTest, SaysWhatIsNoFlightOfAMultirotor) {
   EXPECT_EQ(wing.said.exit_code, 0);
   EXPECT_THAT(wing.said.text, HasSubstr("it is the log of a fixed wing"));
   EXPECT_EQ(wing.verdict["flight"]["simulated"], false);
-  for (const FlightByHand& simulated : {FlightByHand{.hil_state = 1}, FlightByHand{.hitl = 1.0F},
-                                        FlightByHand{.board = "PX4_SITL"}}) {
+  for (const FlightByHand& simulated :
+       {FlightByHand{.hil_state = 1}, FlightByHand{.hitl = 1.0F}, FlightByHand{.board = "PX4_SITL"}}) {
     const Outcome outcome = replay(simulated.write(folder / "simulated.ulg"), folder);
     EXPECT_EQ(outcome.said.exit_code, 0);
     EXPECT_THAT(outcome.said.text, HasSubstr("it is the log of a simulation, not of a flight"));
@@ -132,19 +134,21 @@ TEST(BadFlightTest, TellsInTheVerdictWhatWasCompared) {
   EXPECT_THAT(flight["declination_source"], HasSubstr("World Magnetic Model 2020"));
   EXPECT_NEAR(flight["gnss_delay_s"].get<double>(), 0.11, 1e-6);
   EXPECT_EQ(flight["gnss_delay_source"], "EKF2_GPS_DELAY of the log");
-  EXPECT_EQ(flight["window_s"], json::array({6.0, 7.0})) << "three seconds after take-off, one before the end";
-  const json named = replay(folder / "good.ulg", folder,
-                            "--mag 0 --declination 3 --gnss-delay 0.2 --window 3:6 ").verdict["flight"];
+  EXPECT_EQ(flight["window_s"], json::array({6.0, 7.0}))
+      << "three seconds after take-off, one before the end";
+  const json named =
+      replay(folder / "good.ulg", folder, "--mag 0 --declination 3 --gnss-delay 0.2 --window 3:6 ")
+          .verdict["flight"];
   EXPECT_NEAR(named["declination_rad"].get<double>(), 0.05236, 1e-4);
   EXPECT_EQ(named["window_s"], json::array({3.0, 6.0}));
-  for (const char* source : {"magnetometer_source", "declination_source", "gnss_delay_source", "window_source"})
+  for (const char* source :
+       {"magnetometer_source", "declination_source", "gnss_delay_source", "window_source"})
     EXPECT_EQ(named[source], "as named");
 }
 
 TEST(BadFlightTest, RefusesAFilmWithoutALog) {
   const TemporaryFolder folder;
-  const Outcome outcome =
-      replay(FlightByHand{}.write(folder / "good.ulg"), folder, "--no-log --video");
+  const Outcome outcome = replay(FlightByHand{}.write(folder / "good.ulg"), folder, "--no-log --video");
   EXPECT_EQ(outcome.said.exit_code, 2);
   EXPECT_EQ(outcome.said.lines(), 1) << outcome.said.text;
   EXPECT_THAT(outcome.said.text, HasSubstr("--no-log: the film is made from the log"));

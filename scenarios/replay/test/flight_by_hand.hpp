@@ -20,12 +20,12 @@ struct FlightByHand {
   bool gnss = true;
   bool mag = true;
   bool estimate = true;
-  bool jump = false;                 ///< one fix in the middle is a hundred metres off
-  bool clock_steps_back = false;     ///< in the middle
-  bool no_numbers = false;           ///< every fourth value of every slow sensor and of the estimate
-  std::uint8_t vehicle_type = 1;     ///< 1: rotary wing, 2: fixed wing
+  bool jump = false;              ///< one fix in the middle is a hundred metres off
+  bool clock_steps_back = false;  ///< in the middle
+  bool no_numbers = false;        ///< every fourth value of every slow sensor and of the estimate
+  std::uint8_t vehicle_type = 1;  ///< 1: rotary wing, 2: fixed wing
   std::uint8_t hil_state = 0;
-  float hitl = 0.0F;                 ///< parameter SYS_HITL
+  float hitl = 0.0F;  ///< parameter SYS_HITL
   std::string_view board = "PX4_FMU_V6C";
 
   static constexpr std::uint64_t kBoot = 5'000'000;  ///< us, of the first sample of the IMU
@@ -103,7 +103,8 @@ struct FlightByHand {
     if (!estimate) return;
     log.record(5, now, 1.0F + error, 0.0F, 0.0F, 0.0F);
     const std::uint8_t yes = 1;
-    log.record(6, now, 47.3, 8.5, 0.0F + error, 0.0F, -0.5F, 0.0F, 0.0F, 0.0F, 432.0F, yes, yes, yes, yes, yes);
+    log.record(6, now, 47.3, 8.5, 0.0F + error, 0.0F, -0.5F, 0.0F, 0.0F, 0.0F, 432.0F, yes, yes, yes, yes,
+               yes);
   }
 
   void fix(UlogByHand& log, std::uint64_t k, std::uint64_t now, float error) const {
@@ -117,8 +118,8 @@ struct FlightByHand {
   void state(UlogByHand& log, double time, std::uint64_t now) const {
     log.record(7, now, static_cast<std::uint8_t>(time < kTakeOff ? 1 : 0));
     const std::uint8_t mission = 3, home = 5;
-    log.record(8, now, static_cast<std::uint8_t>(time < 1.0 ? 1 : 2), time < kReturn ? mission : home, hil_state,
-               vehicle_type);
+    log.record(8, now, static_cast<std::uint8_t>(time < 1.0 ? 1 : 2), time < kReturn ? mission : home,
+               hil_state, vehicle_type);
   }
 };
 

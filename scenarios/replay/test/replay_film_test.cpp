@@ -22,7 +22,8 @@ std::string bytes_of(const std::filesystem::path& file) {
 }
 
 Said replay(const std::filesystem::path& log, const std::filesystem::path& out, const std::string& more) {
-  return run_shell(kProgram + " replay '" + log.string() + "' --no-report --out '" + out.string() + "' " + more);
+  return run_shell(kProgram + " replay '" + log.string() + "' --no-report --out '" + out.string() + "' " +
+                   more);
 }
 
 TEST(ReplayFilmTest, LastsAsLongAsThereIsAnEstimateAndLeavesTheLogAsItIs) {
@@ -75,7 +76,8 @@ TEST(ReplayFilmTest, ShowsBothEstimatesFixesAndThePhaseOfTheRecorder) {
 
 TEST(ReplayFilmTest, IsNotMadeWithoutAnEstimate) {
   const TemporaryFolder folder;
-  const Said said = replay(FlightByHand{.gnss = false}.write(folder / "flown.ulg"), folder / "out", "--video");
+  const Said said =
+      replay(FlightByHand{.gnss = false}.write(folder / "flown.ulg"), folder / "out", "--video");
   EXPECT_EQ(said.exit_code, 1);
   EXPECT_THAT(said.text, HasSubstr("no film: there was no estimate to show"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out/flown/video.mp4"));

@@ -32,9 +32,9 @@ struct Panel {
   std::string unit;
   std::vector<Series> series;
   std::vector<Strip> strips;
-  std::vector<Series> bounds;  ///< drawn where they are near the curves, which they do not flatten
-  double least_span = 1e-3;    ///< in `unit`: quieter curves are not magnified further
-  std::string missing;         ///< said instead of curves when there are none
+  double least_span = 1e-3;         ///< in `unit`: quieter curves are not magnified further
+  std::string missing;              ///< said instead of curves when there are none
+  std::vector<Series> bounds = {};  ///< drawn where they are near the curves, which they do not flatten
 };
 
 /// A stretch of time in the background: a phase of flight.
