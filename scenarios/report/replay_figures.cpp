@@ -230,8 +230,10 @@ void add_bias(plot::Panel& panel, const std::vector<ReportRun>& runs, std::size_
   constexpr double kSigmas = 3.0;
   Curve found = probed(runs[i], bias.parts[0] + axis, bias.factor);
   if (*bias.parts[1] != '\0') found = sum_of(found, probed(runs[i], bias.parts[1] + axis, bias.factor));
-  if (found.empty()) return;
   const Curve sigma = probed(runs[i], bias.sigma + axis, kSigmas * bias.factor);
+  const bool is_sought = !sigma.empty() || std::any_of(found.value.begin(), found.value.end(),
+                                                       [](double value) { return value != 0.0; });
+  if (found.empty() || !is_sought) return;
   if (!sigma.empty()) {
     panel.strips.push_back({runs.size() == 1 ? "3\u03c3" : "",
                             colour(i) + (runs.size() == 1 ? "" : " several"), sigma.time,
@@ -280,9 +282,9 @@ plot::Plane replayed_path(const std::vector<ReportRun>& runs) {
   const Curve known = curve_of(first, kPosition, "position_known");
   track(recorded_name(first), kRecordedStyle, where(curve_of(first, kPosition, "p_NB_N.x"), known),
         where(curve_of(first, kPosition, "p_NB_N.y"), known));
+  track("fixes", kFixStyle, curve_of(first, kFix, "p_N.x"), curve_of(first, kFix, "p_N.y"));
   for (std::size_t i = 0; i < runs.size(); ++i)
     track(label(runs, i), colour(i), estimate_of(runs[i], "p_NB_N.x"), estimate_of(runs[i], "p_NB_N.y"));
-  track("fixes", kFixStyle, curve_of(first, kFix, "p_N.x"), curve_of(first, kFix, "p_N.y"));
   return plane;
 }
 
@@ -295,9 +297,9 @@ plot::TimeStack replayed_position(const std::vector<ReportRun>& runs) {
     const char* const known = axis.suffix == kAxes[2].suffix ? "height_known" : "position_known";
     add(panel, recorded_name(first), kRecordedStyle,
         where(curve_of(first, kPosition, field), curve_of(first, kPosition, known)));
+    add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("p_N") + axis.suffix));
     for (std::size_t i = 0; i < runs.size(); ++i)
       add(panel, label(runs, i), colour(i), estimate_of(runs[i], field));
-    add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("p_N") + axis.suffix));
     stack.panels.push_back(std::move(panel));
   }
   return stack;
@@ -313,8 +315,8 @@ plot::TimeStack replayed_velocity(const std::vector<ReportRun>& runs) {
     add(panel, recorded_name(first), kRecordedStyle,
         where(curve_of(first, kPosition, std::string("v_NB_N") + kAxes[k].suffix),
               curve_of(first, kPosition, "velocity_known")));
-    for (std::size_t i = 0; i < runs.size(); ++i) add(panel, label(runs, i), colour(i), ours[i][k]);
     add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("v_N") + kAxes[k].suffix));
+    for (std::size_t i = 0; i < runs.size(); ++i) add(panel, label(runs, i), colour(i), ours[i][k]);
     stack.panels.push_back(std::move(panel));
   }
   return stack;

@@ -74,6 +74,14 @@ TEST(ReplayFilmTest, ShowsBothEstimatesFixesAndThePhaseOfTheRecorder) {
   EXPECT_EQ(overlays.ghost_trail_N.back(), flying.estimate->p_NB_N);
 }
 
+TEST(ReplayFilmTest, IsMadeOfEachOfTwoThatAreCompared) {
+  const TemporaryFolder folder;
+  const auto log = FlightByHand{.seconds = 1.5}.write(folder / "flown.ulg");
+  const Said said = replay(log, folder / "out", "--compare ekf error_state --video");
+  for (const char* kind : {"ekf", "error_state"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/flown" / kind / "video.mp4")) << said.text;
+}
+
 TEST(ReplayFilmTest, IsNotMadeWithoutAnEstimate) {
   const TemporaryFolder folder;
   const Said said =
