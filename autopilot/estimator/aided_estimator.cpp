@@ -54,6 +54,7 @@ void AidedEstimator::reset() {
   heard_ = Heard{};
   previous_ = Time{0};
   innovations_ = Innovations{};
+  reaches_ = Innovations{};
   last_fix_.reset();
   trust_ = FixTrust{};
   offset_N_.setZero();
@@ -369,6 +370,10 @@ void AidedEstimator::probe(ProbeVisitor& visit) const {
   visit("innovation_velocity", innovations_.v_N, "m/s");
   visit("innovation_pressure", innovations_.pressure, "Pa");
   visit("innovation_heading", innovations_.heading, "rad");
+  visit("gate_position", reaches_.p_N, "m");
+  visit("gate_velocity", reaches_.v_N, "m/s");
+  visit("gate_pressure", reaches_.pressure, "Pa");
+  visit("gate_heading", reaches_.heading, "rad");
   visit("nis_position", gates_.position.nis(), "1");
   visit("nis_velocity", gates_.velocity.nis(), "1");
   visit("nis_baro", gates_.baro.nis(), "1");

@@ -108,7 +108,7 @@ class AidedEstimator : public Estimator {
   Gate& velocity_gate() { return gates_.velocity; }
   Gate& baro_gate() { return gates_.baro; }
   Gate& mag_gate() { return gates_.mag; }
-  /// Innovations of the last update, for probes.
+  /// Innovations of the last update as their gates saw them, for probes.
   struct Innovations {
     Vector3 p_N = Vector3::Zero();  ///< m
     Vector3 v_N = Vector3::Zero();  ///< m/s
@@ -116,6 +116,8 @@ class AidedEstimator : public Estimator {
     double heading = 0.0;           ///< rad
   };
   Innovations innovations_;
+  /// How far they could have been off and still pass, each in its unit. 0: no gate, or no sample yet.
+  Innovations reaches_;
 
  private:
   struct Gates {

@@ -109,6 +109,7 @@ void Ekf::correct_mag(const Vector3& m_B, Time now) {
   const double gate_R = model.R(square(wanted.sigma), square(std::min(wanted.sigma_tilt, wanted.gate_sigma)));
   const double S = H * P_.block<3, 3>(kT, kT) * H.transpose() + gate_R;
   innovations_.heading = innovation;
+  reaches_.heading = Gate::reach(S, wanted.gate);
   const Verdict verdict = judge_mag(square(innovation) / S, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
@@ -152,6 +153,7 @@ void Ekf::correct_baro(double difference, Time now) {
   const double innovation = difference - baro_model().pressure_difference(x_.p_NB_N.z());
   innovations_.pressure = innovation;
   const double S = C * P_(kDown, kDown) * C + R;
+  reaches_.pressure = Gate::reach(S, wanted.gate);
   const Verdict verdict = baro_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
@@ -177,6 +179,7 @@ void Ekf::fuse_velocity(const GnssObservation& fix, Time now, Update& update) {
   const GnssVelocityModel model = ekf_gnss_velocity(x_, trig_);
   Matrix3 S = model.C * P_.block<6, 6>(kV, kV) * model.C.transpose();
   S.diagonal() += fix.variance_v;
+  for (int axis = 0; axis < 3; ++axis) reaches_.v_N(axis) = Gate::reach(S(axis, axis), wanted.velocity_gate);
   const double nis = fix.dv_N.dot(S.inverse() * fix.dv_N);
   const Verdict verdict = velocity_gate().judge(nis, wanted.velocity_gate, wanted.persistence, now);
   if (verdict == Verdict::kAccept) {
@@ -196,6 +199,8 @@ void Ekf::fuse_position(const GnssObservation& fix, Time now, Update& update) {
   const Vector2 innovation = fix.dp_N.head<2>() - update.correction.segment<2>(kP);
   Eigen::Matrix2d S = P_.block<2, 2>(kP, kP);
   S.diagonal() += fix.gate_variance_p.head<2>();
+  innovations_.p_N.head<2>() = innovation;
+  for (int axis = 0; axis < 2; ++axis) reaches_.p_N(axis) = Gate::reach(S(axis, axis), wanted.position_gate);
   const double nis = innovation.dot(S.inverse() * innovation);
   const Verdict verdict = position_gate().judge(nis, wanted.position_gate, wanted.persistence, now);
   if (verdict == Verdict::kAccept) {

@@ -140,8 +140,10 @@ void ErrorStateFilter::correct_mag(const Vector3& m_B, Time now) {
   const ErrorState::Vector PCt = P_.middleCols<3>(kT).lazyProduct(model.H_attitude.transpose()) +
                                  P_.middleCols<3>(kM).lazyProduct(model.H_bias.transpose());
   const double CPCt = model.H_attitude.dot(PCt.segment<3>(kT)) + model.H_bias.dot(PCt.segment<3>(kM));
+  const double S = CPCt + gate_R;
   innovations_.heading = innovation;
-  const Verdict verdict = judge_mag(square(innovation) / (CPCt + gate_R), now);
+  reaches_.heading = Gate::reach(S, wanted.gate);
+  const Verdict verdict = judge_mag(square(innovation) / S, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
     x_.q_NB = (Quaternion(Eigen::AngleAxisd(innovation, Vector3::UnitZ())) * x_.q_NB).normalized();
@@ -170,8 +172,9 @@ void ErrorStateFilter::correct_baro(double difference, Time now) {
   innovations_.pressure = innovation;
   const ErrorState::Vector PCt = C * P_.col(kDown) + P_.col(kB);
   const double CPCt = C * PCt(kDown) + PCt(kB);
-  const Verdict verdict =
-      baro_gate().judge(square(innovation) / (CPCt + R), wanted.gate, wanted.persistence, now);
+  const double S = CPCt + R;
+  reaches_.pressure = Gate::reach(S, wanted.gate);
+  const Verdict verdict = baro_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
     // The receiver knows the height as well: it is the pressure that has stepped.
@@ -195,6 +198,7 @@ void ErrorStateFilter::fuse_velocity(const GnssObservation& fix, Time now, Updat
   const GnssParams& wanted = aiding().gnss;
   Matrix3 S = P_.block<3, 3>(kV, kV);
   S.diagonal() += fix.variance_v;
+  for (int axis = 0; axis < 3; ++axis) reaches_.v_N(axis) = Gate::reach(S(axis, axis), wanted.velocity_gate);
   const double nis = fix.dv_N.dot(S.inverse() * fix.dv_N);
   const Verdict verdict = velocity_gate().judge(nis, wanted.velocity_gate, wanted.persistence, now);
   if (verdict == Verdict::kAccept) {
@@ -213,11 +217,12 @@ void ErrorStateFilter::fuse_position(const GnssObservation& fix, Time now, Updat
   const GnssParams& wanted = aiding().gnss;
   // h = p + walk: C picks both.
   const Vector3 innovation = fix.dp_N - x_.gnss_walk_N;
-  innovations_.p_N = innovation;
   const Vector3 left = innovation - update.correction.segment<3>(kP) - update.correction.segment<3>(kW);
   Matrix3 S =
       P_.block<3, 3>(kP, kP) + P_.block<3, 3>(kP, kW) + P_.block<3, 3>(kW, kP) + P_.block<3, 3>(kW, kW);
   S.diagonal() += fix.gate_variance_p;
+  innovations_.p_N = left;
+  for (int axis = 0; axis < 3; ++axis) reaches_.p_N(axis) = Gate::reach(S(axis, axis), wanted.position_gate);
   const double nis = left.dot(S.inverse() * left);
   const Verdict verdict = position_gate().judge(nis, wanted.position_gate, wanted.persistence, now);
   if (verdict == Verdict::kAccept) {

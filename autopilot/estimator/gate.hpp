@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -51,6 +52,12 @@ class Gate {
 
   /// What was refused before counts no more.
   void restart() { disagreeing_ = false; }
+
+  /// How far a measurement of this variance may be off along one axis at the most, in its own unit, and still
+  /// pass: the reach of the ellipse within which those of several axes are accepted. 0: no gate.
+  static double reach(double variance, double threshold) {
+    return threshold > 0.0 ? std::sqrt(threshold * variance) : 0.0;
+  }
 
   double nis() const { return nis_; }
   bool disagreeing() const { return disagreeing_; }

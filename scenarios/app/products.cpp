@@ -11,6 +11,7 @@
 #include "scenarios/report/report.hpp"
 #include "scenarios/video/film.hpp"
 #include "scenarios/video/png.hpp"
+#include "scenarios/video/replay_film.hpp"
 
 namespace ironbird::scenarios {
 
@@ -70,7 +71,7 @@ PicturePlan picture_plan(const Log& log) {
 FilmScript plan_film(const Log& log, const PicturePlan& plan, const SceneFiles& scene, bool preview) {
   FilmOptions options = film_options(plan, scene);
   if (preview) options.quality = simulator::Quality::kPreview;
-  return film_script(log, options);
+  return is_replayed(log) ? replay_film_script(log, options) : film_script(log, options);
 }
 
 bool make_video(const Log& log, const SceneFiles& scene, const std::filesystem::path& file, bool preview,

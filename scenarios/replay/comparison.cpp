@@ -1,6 +1,7 @@
 #include "scenarios/replay/comparison.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,6 +10,7 @@
 #include "autopilot/math/angles.hpp"
 #include "autopilot/math/euler_zyx.hpp"
 #include "autopilot/math/local_map.hpp"
+#include "scenarios/requirements/difference_metrics.hpp"
 
 namespace ironbird::scenarios {
 
@@ -120,17 +122,6 @@ void Comparison::compare(const RecordedPosition& recorded, double share, const S
 }
 
 std::vector<Metric> Comparison::results() const {
-  const std::string& whose = recorded_.name;
-  const std::string than = "root mean square of the difference to " + whose + ", ";
-  std::vector<Metric> all = {
-      {"horizontal_difference_rms_m", horizontal_.rms(), "m", than + "distance on the map"},
-      {"north_difference_rms_m", north_.rms(), "m", than + "north"},
-      {"east_difference_rms_m", east_.rms(), "m", than + "east"},
-      {"down_difference_rms_m", down_.deviation(), "m", than + "down, its mean taken off"},
-      {"velocity_difference_rms_mps", velocity_.rms(), "m/s", than + "velocity, three axes together"},
-      {"roll_difference_rms_deg", kDegreesPerRadian * roll_.rms(), "deg", than + "roll"},
-      {"pitch_difference_rms_deg", kDegreesPerRadian * pitch_.rms(), "deg", than + "pitch"},
-      {"heading_difference_rms_deg", kDegreesPerRadian * heading_.rms(), "deg", than + "heading"}};
   double share = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [sum, wanted] :
        {std::pair(&roll_, wanted_attitudes_), std::pair(&horizontal_, wanted_positions_),
@@ -139,10 +130,17 @@ std::vector<Metric> Comparison::results() const {
     const double compared = static_cast<double>(sum->count) / static_cast<double>(wanted);
     share = std::isnan(share) ? compared : std::min(share, compared);
   }
-  all.push_back({"compared_share", share, "1",
-                 "of what " + whose +
-                     " believed in the window, how much could be compared; of attitude, position, "
-                     "height and velocity the least"});
+  const std::array<double, 9> values{horizontal_.rms(),
+                                     north_.rms(),
+                                     east_.rms(),
+                                     down_.deviation(),
+                                     velocity_.rms(),
+                                     kDegreesPerRadian * roll_.rms(),
+                                     kDegreesPerRadian * pitch_.rms(),
+                                     kDegreesPerRadian * heading_.rms(),
+                                     share};
+  std::vector<Metric> all = difference_metrics(recorded_.name);
+  for (std::size_t k = 0; k < values.size(); ++k) all.at(k).value = values[k];
   return all;
 }
 

@@ -29,7 +29,11 @@ OpenedFlight open_px4(const std::filesystem::path& file, const FlightChoice& cho
   Px4Flight px4 = read_px4_flight(UlogFile::read(file), file.string(), choice.px4);
   OpenedFlight opened;
   for (const MagCandidate& mag : px4.mags) opened.sensors.push_back(line_of(mag, px4.mag == mag.instance));
+  opened.simulated = px4.simulated;
+  opened.mag = px4.mag;
+  opened.mag_source = px4.mag_source;
   opened.gnss_delay = px4.gnss_delay;
+  opened.gnss_delay_source = px4.gnss_delay_source;
   if (px4.first_fix) opened.field = px4.field_there();
   opened.dated = px4.unix_time.has_value();
   opened.flight = std::move(px4.flight);
@@ -41,7 +45,13 @@ OpenedFlight open_tables(const std::filesystem::path& file, const FlightChoice& 
   if (choice.px4.gnss_delay)
     throw ConfigError("--gnss-delay: is for a log of PX4; a column map has gnss.delay");
   CsvFlight csv = read_csv_flight(load_column_map(file, choice.map_settings), choice.data);
-  return {std::move(csv.flight), {}, csv.gnss_delay, csv.field, csv.dated};
+  OpenedFlight opened;
+  opened.flight = std::move(csv.flight);
+  opened.gnss_delay = csv.gnss_delay;
+  opened.gnss_delay_source = "gnss.delay of the column map";
+  opened.field = csv.field;
+  opened.dated = csv.dated;
+  return opened;
 }
 
 bool is_table(const std::filesystem::path& file) {

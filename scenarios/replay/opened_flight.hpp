@@ -23,7 +23,11 @@ struct FlightChoice {
 struct OpenedFlight {
   RecordedFlight flight;
   std::vector<std::string> sensors;    ///< what is to be told of its sensors, a line each
+  bool simulated = false;              ///< no vehicle flew
+  std::optional<int> mag;              ///< instance that was taken; none: it has no number, or there is none
+  std::string mag_source;              ///< why that one
   double gnss_delay = 0.0;             ///< s
+  std::string gnss_delay_source;       ///< who says so
   std::optional<MagneticField> field;  ///< of the earth where it flew; none: no place is told
   bool dated = true;                   ///< the field is that of the day it flew, not of the newest model
 };

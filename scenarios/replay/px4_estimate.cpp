@@ -17,18 +17,20 @@ using autopilot::Vector3;
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
-std::vector<RecordedAttitude> attitudes_of(const Px4Log& log) {
+std::vector<RecordedAttitude> attitudes_of(Px4Log& log) {
   std::vector<RecordedAttitude> attitudes;
   const Px4Records attitude = log.records("vehicle_attitude");
   const auto q = attitude.find("q");
+  std::size_t no_rotations = 0;
   for (std::size_t k = 0; q && k < attitude.size(); ++k) {
     const Quaternion q_NB(attitude.number(k, q, 0), attitude.number(k, q, 1), attitude.number(k, q, 2),
                           attitude.number(k, q, 3));
     const bool is_rotation = std::abs(q_NB.norm() - 1.0) < 0.1;
-    if (is_rotation && log.is_within(attitude.measured(k))) {
-      attitudes.push_back({attitude.measured(k), q_NB.normalized()});
-    }
+    if (!log.is_within(attitude.measured(k))) continue;
+    if (is_rotation) attitudes.push_back({attitude.measured(k), q_NB.normalized()});
+    no_rotations += is_rotation ? 0 : 1;
   }
+  log.remark_count(no_rotations, "of PX4's attitudes are none: passed over");
   return attitudes;
 }
 

@@ -10,6 +10,7 @@
 #include "scenarios/config/one_line.hpp"
 #include "scenarios/replay/px4_estimate.hpp"
 #include "scenarios/replay/px4_imu.hpp"
+#include "scenarios/replay/px4_phases.hpp"
 #include "scenarios/replay/px4_records.hpp"
 #include "scenarios/replay/px4_sensors.hpp"
 
@@ -145,6 +146,7 @@ Px4Flight read_px4_flight(const UlogFile& file, const std::string& name, const P
     return std::tuple(one.when, is_imu(one)) < std::tuple(other.when, is_imu(other));
   });
   px4.flight.airborne = read_airborne(log);
+  px4.flight.phases = read_px4_phases(log);
   if (auto estimate = read_px4_estimate(log)) px4.flight.estimates.push_back(std::move(*estimate));
   px4.flight.end = log.end;
   px4.flight.remarks = std::move(log.remarks);

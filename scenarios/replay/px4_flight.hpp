@@ -13,8 +13,16 @@ namespace ironbird::scenarios {
 
 /// What is to be taken from a log of which there is more than one, or which the log does not tell.
 struct Px4Choice {
-  std::optional<int> mag;  ///< instance of the magnetometer; none: the one that fits the earth's field best
-  std::optional<double> gnss_delay;  ///< s, from measurement to arrival; none: what the log's parameters say
+  std::optional<int> mag;
+  std::optional<double> gnss_delay;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("mag", self.mag, "1",
+          "instance of the magnetometer; none: the one that fits the earth's field best");
+    visit("gnss_delay", self.gnss_delay, "s",
+          "from measurement to arrival; none: what the log's parameters say");
+  }
 };
 
 /// A magnetometer of a log, and how well it fits the field of the earth.
@@ -41,7 +49,9 @@ struct Px4Flight {
   RecordedFlight flight;
   std::vector<MagCandidate> mags;   ///< by instance
   std::optional<int> mag;           ///< the one that was taken; none: there is none
+  std::string mag_source;           ///< why that one
   double gnss_delay = 0.0;          ///< s
+  std::string gnss_delay_source;    ///< who says so
   std::optional<double> unix_time;  ///< s, UTC, of the first fix that tells it
   std::optional<hil_bridge::rosflight::RosflightGnss> first_fix;  ///< that is of use
   bool simulated = false;                                         ///< no vehicle flew

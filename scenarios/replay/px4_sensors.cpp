@@ -116,15 +116,19 @@ bool is_usable(const rosflight::RosflightGnss& fix) {
   return autopilot::is_usable(static_cast<autopilot::GnssFix>(fix.fix_type));
 }
 
-double delay_of(Px4Log& log, std::optional<double> named) {
-  if (named) return *named;
-  const auto told = log.file.parameter("EKF2_GPS_DELAY");  // ms
-  if (!told) return kUsualDelay;
+void find_delay(Px4Log& log, std::optional<double> named, Px4Flight& flight) {
+  flight.gnss_delay = named.value_or(kUsualDelay);
+  flight.gnss_delay_source = named ? "as named" : "PX4's own default";
+  const auto told = named ? std::nullopt : log.file.parameter("EKF2_GPS_DELAY");  // ms
+  if (!told) return;
   const double delay = 1e-3 * *told;
-  if (delay >= 0.0 && delay <= kLongestDelay) return delay;
+  if (delay >= 0.0 && delay <= kLongestDelay) {
+    flight.gnss_delay = delay;
+    flight.gnss_delay_source = "EKF2_GPS_DELAY of the log";
+    return;
+  }
   log.remark("its EKF2_GPS_DELAY of " + std::to_string(*told) +
              " ms cannot be: fixes are taken to be 110 ms old");
-  return kUsualDelay;
 }
 
 /// Samples of one magnetometer, tesla.
@@ -180,12 +184,22 @@ std::optional<int> choose(const std::vector<MagCandidate>& mags, std::optional<i
                   (there.empty() ? "; it has none" : "; there are: " + there));
 }
 
+/// Why the magnetometer that was taken was taken.
+std::string mag_source(const Px4Flight& flight, bool named) {
+  if (named) return "as named";
+  if (!flight.mag) return "the log has none";
+  const bool several = flight.mags.size() > 1;
+  if (!several) return "the only one of the log";
+  return flight.first_fix ? "it fits the earth's field best, strength and spread together"
+                          : "its strength spreads least; there is no place to ask for the earth's";
+}
+
 }  // namespace
 
 std::vector<Arrival> read_px4_gnss(Px4Log& log, std::optional<double> delay, Px4Flight& flight) {
   const Px4Records fixes = log.first_of({"vehicle_gps_position", "sensor_gps"});
   const GnssReader reader(fixes);
-  flight.gnss_delay = delay_of(log, delay);
+  find_delay(log, delay, flight);
   const Time age(std::llround(flight.gnss_delay * 1e9));
   std::vector<Arrival> messages;
   std::size_t without_velocity = 0;
@@ -232,18 +246,25 @@ std::vector<Arrival> read_px4_mag(Px4Log& log, std::optional<int> named, Px4Flig
   std::sort(flight.mags.begin(), flight.mags.end(),
             [](const MagCandidate& one, const MagCandidate& other) { return one.instance < other.instance; });
   flight.mag = choose(flight.mags, named, log.name);
+  flight.mag_source = mag_source(flight, named.has_value());
   // Before 1.8 the field stood beside the rates.
   const Px4Records mag =
       flight.mag ? log.records("vehicle_magnetometer", *flight.mag) : log.records("sensor_combined");
   const auto field = mag.find("magnetometer_ga");
   if (!field) log.remark("it has no magnetometer: the heading cannot be known, and no filter starts");
   std::vector<Arrival> messages;
+  std::size_t no_numbers = 0;
   for (std::size_t k = 0; field && k < mag.size(); ++k) {
     const Time when = mag.measured(k);
     if (!log.is_within(when)) continue;
     const Eigen::Vector3f m = mag.vector(k, field).cast<float>();
+    if (!m.allFinite()) {
+      ++no_numbers;
+      continue;
+    }
     messages.push_back({when, rosflight::SmallMag{m.x(), m.y(), m.z()}});
   }
+  log.remark_count(no_numbers, "of its samples of the field are no numbers: passed over");
   return messages;
 }
 
@@ -255,16 +276,22 @@ std::vector<Arrival> read_px4_baro(Px4Log& log) {
   if (!pressure && !height)
     log.remark("it has no barometer: the height cannot be known, and no filter starts");
   std::vector<Arrival> messages;
+  std::size_t no_numbers = 0;
   for (std::size_t k = 0; (pressure || height) && k < air.size(); ++k) {
     const Time when = air.measured(k);
     if (!log.is_within(when)) continue;
     double pascal = pressure ? air.number(k, pressure) : autopilot::standard_pressure(air.number(k, height));
+    if (!std::isfinite(pascal)) {
+      ++no_numbers;
+      continue;
+    }
     constexpr double kLessThanAnyPascal = 2000.0;  // older versions tell hectopascal
     if (pascal < kLessThanAnyPascal) pascal *= 100.0;
     messages.push_back(
         {when, rosflight::SmallBaro{0.0F, static_cast<float>(pascal),
                                     or_else(air.number(k, temperature) + kZeroCelsius, kUsualTemperature)}});
   }
+  log.remark_count(no_numbers, "of its samples of the pressure are no numbers: passed over");
   return messages;
 }
 

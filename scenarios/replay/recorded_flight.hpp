@@ -35,7 +35,7 @@ struct RecordedPosition {
   static void describe(Self& self, Visit&& visit) {
     visit("stamp", self.stamp, "ns", "when they were valid");
     visit("p_NB_N", self.p_NB_N, "m",
-          "position; in a log from the origin of the estimate that was made anew, where both are known");
+          "position; in a log from the origin of the estimate that was made anew, since that is known");
     visit("v_NB_N", self.v_NB_N, "m/s", "velocity over ground");
     visit("position_known", self.position_known, "1", "whoever estimated it believed north and east");
     visit("height_known", self.height_known, "1", "and down");
@@ -67,10 +67,42 @@ struct RecordedEstimate {
   autopilot::LocalOrigin origin;  ///< of the positions; not known: wherever the flight began
 };
 
+/// What the recorder's own autopilot was doing, from one time on.
+struct RecordedPhase {
+  hil_bridge::Time stamp{};
+  bool armed = false;
+  bool airborne = false;
+  std::string mode;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("stamp", self.stamp, "ns", "since when");
+    visit("armed", self.armed, "1", "its motors may turn");
+    visit("airborne", self.airborne, "1", "its land detector says so");
+    visit("mode", self.mode, "", "what it was told to do, in its own word: mission; empty: not told");
+  }
+};
+
+/// Where the recorded estimate counts its positions from.
+struct RecordedOrigin {
+  autopilot::Vector3 p_N = autopilot::Vector3::Zero();
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("p_N", self.p_N, "m", "seen from the origin of the estimate that was made anew");
+  }
+};
+
 /// From when to when.
 struct Interval {
   hil_bridge::Time begin{};
   hil_bridge::Time end{};
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("begin", self.begin, "ns", "from when");
+    visit("end", self.end, "ns", "until when, included");
+  }
 };
 
 /// A flight that somebody else's autopilot or recorder logged: its sensors as a flight-control unit would
@@ -80,6 +112,7 @@ struct RecordedFlight {
   std::vector<hil_bridge::Arrival> messages;  ///< by time; of those at one time the IMU's is the last
   std::vector<RecordedEstimate> estimates;    ///< the first is compared with
   std::vector<Interval> airborne;             ///< as the recorder's own land detector told
+  std::vector<RecordedPhase> phases;          ///< by time; empty: nobody told of them
   hil_bridge::Time end{};                     ///< of the last sample of the IMU
   std::vector<std::string> remarks;           ///< what is missing or odd, a line each
 };

@@ -117,6 +117,8 @@ ReplayResult Replay::finish() {
 void Replay::write_recorded(const autopilot::SensorFrame& frame, Time now) {
   const autopilot::LocalOrigin& here = autopilot_->signals().estimate.origin;
   Recorder& recorder = log_->recorder();
+  for (; next_phase_ < flight_.phases.size() && flight_.phases[next_phase_].stamp <= now; ++next_phase_)
+    recorder.write_once("/recorded/phase", flight_.phases[next_phase_], now);
   if (frame.gnss && autopilot::is_usable(frame.gnss->fix) && here.known) {
     const autopilot::GnssSample& fix = *frame.gnss;
     const autopilot::Vector3 p_N =
@@ -126,11 +128,18 @@ void Replay::write_recorded(const autopilot::SensorFrame& frame, Time now) {
   }
   if (flight_.estimates.empty()) return;
   const RecordedEstimate& recorded = flight_.estimates.front();
+  if (!origin_written_ && here.known && recorded.origin.known) {
+    const autopilot::Vector3 there = seen_from(here, autopilot::Vector3::Zero(), recorded.origin);
+    recorder.write_once("/recorded/origin", RecordedOrigin{there}, now);
+    origin_written_ = true;
+  }
   for (; next_attitude_ < recorded.attitudes.size() && recorded.attitudes[next_attitude_].stamp <= now;
        ++next_attitude_)
     recorder.write_once("/recorded/attitude", recorded.attitudes[next_attitude_], now);
   for (; next_position_ < recorded.positions.size() && recorded.positions[next_position_].stamp <= now;
        ++next_position_) {
+    // Before there is an origin to see it from it cannot be shown beside ours.
+    if (recorded.origin.known && !here.known) continue;
     RecordedPosition position = recorded.positions[next_position_];
     position.p_NB_N = seen_from(here, position.p_NB_N, recorded.origin);
     recorder.write_once("/recorded/position", position, now);

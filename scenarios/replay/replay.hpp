@@ -28,11 +28,22 @@ struct ReplayOptions {
 struct ReplayResult {
   std::vector<Metric> metrics;
   Interval window;
-  std::vector<std::string> remarks;  ///< what was not as it should be, a line each
-  std::optional<double> ready;       ///< s, when there was an estimate; none: never
-  std::optional<CheckResult> same;   ///< the autopilot did what it did then; none: it was not to
+  std::vector<std::string> remarks;
+  std::optional<double> ready;
+  std::optional<CheckResult> same;
   bool lost_at_end = false;
   bool interrupted = false;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("metrics", self.metrics, "", "how far ours is from the recorded one");
+    visit("window", self.window, "", "what was compared");
+    visit("remarks", self.remarks, "", "what was not as it should be, a line each");
+    visit("ready", self.ready, "s", "when there was an estimate; none: never");
+    visit("same", self.same, "", "the autopilot computes what it computed then; none: it need not");
+    visit("lost_at_end", self.lost_at_end, "1", "the estimator says that it is lost");
+    visit("interrupted", self.interrupted, "1", "somebody asked to stop");
+  }
 };
 
 /// The window that counts unless another is named: from three seconds after the first take-off to a second
@@ -87,6 +98,8 @@ class Replay {
   std::optional<Comparison> comparison_;  // none: there is nothing to compare with
   std::size_t next_attitude_ = 0;
   std::size_t next_position_ = 0;
+  std::size_t next_phase_ = 0;
+  bool origin_written_ = false;
   std::optional<hil_bridge::Time> ready_;  // when there was an estimate
   hil_bridge::Time next_progress_{};
   std::optional<hil_bridge::Time> seen_;  // the newest estimate

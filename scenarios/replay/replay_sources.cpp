@@ -12,6 +12,7 @@
 #include "scenarios/config/file_search.hpp"
 #include "scenarios/replay/magnetic_field.hpp"
 #include "scenarios/replay/opened_flight.hpp"
+#include "scenarios/replay/provenance.hpp"
 #include "scenarios/replay/run_log.hpp"
 #include "scenarios/replay/run_replay.hpp"
 
@@ -91,6 +92,18 @@ class OpenedSource final : public ReplaySource {
     return Replay(opened_.flight, loaded, modules, std::move(options)).run();
   }
 
+  ReplayedFlight provenance() const override {
+    ReplayedFlight told = provenance_of(opened_.flight);
+    told.simulated = opened_.simulated;
+    told.magnetometer = opened_.mag;
+    told.magnetometer_source = opened_.mag_source;
+    told.declination = declination_.angle;
+    told.declination_source = declination_.source;
+    told.gnss_delay = opened_.gnss_delay;
+    told.gnss_delay_source = opened_.gnss_delay_source;
+    return told;
+  }
+
   std::vector<std::string> about() const override {
     std::vector<std::string> lines{
         formatted("%s, %.1f s of IMU samples", opened_.flight.what.c_str(), to_seconds(opened_.flight.end))};
@@ -135,6 +148,8 @@ class RunSource final : public ReplaySource {
                       ReplayOptions options) const override {
     return RunReplay(log_, loaded, modules, std::move(options)).run();
   }
+
+  ReplayedFlight provenance() const override { return provenance_of(log_.flight()); }
 
   std::vector<std::string> about() const override {
     return {formatted("%s, %.1f s", log_.flight().what.c_str(), to_seconds(log_.flight().end))};

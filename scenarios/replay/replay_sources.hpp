@@ -8,6 +8,7 @@
 
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/replay/replay.hpp"
+#include "scenarios/requirements/replayed_flight.hpp"
 
 namespace ironbird::scenarios {
 
@@ -41,6 +42,8 @@ class ReplaySource {
   virtual LoadedScenario load(const PilotChoice& choice, const autopilot::Modules& modules) const = 0;
   virtual ReplayResult replay(const LoadedScenario& loaded, const autopilot::Modules& modules,
                               ReplayOptions options) const = 0;
+  /// What a reader of the figures has to know of it; what was compared is not yet in it.
+  virtual ReplayedFlight provenance() const = 0;
   /// What people should know of it, a line each.
   virtual std::vector<std::string> about() const = 0;
 };

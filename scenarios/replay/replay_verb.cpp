@@ -13,13 +13,16 @@
 #include "scenarios/app/command_line.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/interrupt.hpp"
+#include "scenarios/app/products.hpp"
 #include "scenarios/app/run_folder.hpp"
 #include "scenarios/app/scenario_arguments.hpp"
+#include "scenarios/app/scene.hpp"
 #include "scenarios/app/terminal.hpp"
 #include "scenarios/app/verb_options.hpp"
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/config/config_error.hpp"
+#include "scenarios/replay/provenance.hpp"
 #include "scenarios/replay/replay_sources.hpp"
 #include "scenarios/replay/replay_verdict.hpp"
 #include "scenarios/report/report.hpp"
@@ -42,6 +45,7 @@ struct ReplayArguments {
   std::string out = "out";
   bool no_log = false;
   bool no_report = false;
+  bool video = false;
   bool json = false;
 };
 
@@ -168,6 +172,7 @@ class ReplayWork {
 
   Replayed run(const Variant& variant, RunListener& listener) const {
     const LoadedScenario loaded = source_->load(choice_of(arguments_, variant), modules_);
+    if (arguments_.video) check_scene(loaded);
     const std::string name = variant.name.empty() ? name_ : name_ + ", " + variant.name;
     Replayed done{variant, variant.name.empty() ? folder_ : folder_ / variant.name, {}, {}};
     require_other_file(done.folder / "flight.mcap");
@@ -184,8 +189,12 @@ class ReplayWork {
     done.result = source_->replay(loaded, modules_, options);
     done.verdict = judge_replay(done.result,
                                 {name, loaded.scenario.title, loaded.scenario.seed, loaded.digest}, bounds_);
+    done.verdict.flight = source_->provenance();
+    done.verdict.flight->file = std::filesystem::path(arguments_.flight.flight).filename().string();
+    note_window(*done.verdict.flight, source_->flight(), done.result.window, window_.has_value());
     write_verdict(done.verdict, done.folder / "verdict.json");
     listener.judged(done.verdict);
+    if (arguments_.video) done.result.interrupted |= !film(done, loaded, listener);
     return done;
   }
 
@@ -196,6 +205,17 @@ class ReplayWork {
                                      one.folder / "flight.mcap", one.folder / "verdict.json"));
     }
     write_report(runs, folder_ / "report.html");
+  }
+
+  /// @return false when it was interrupted
+  static bool film(const Replayed& done, const LoadedScenario& loaded, RunListener& listener) {
+    if (done.result.interrupted) return true;
+    if (!done.result.ready) {
+      listener.note("no film: there was no estimate to show");
+      return true;
+    }
+    const Log log = Log::read(done.folder / "flight.mcap");
+    return make_video(log, scene_of(loaded), done.folder / "video.mp4", false, listener);
   }
 
   void tell(const std::vector<Replayed>& all) const {
@@ -241,6 +261,8 @@ int exit_code_of_all(const std::vector<Replayed>& all) {
 
 int replay(const ReplayArguments& arguments, const autopilot::Modules& modules) {
   note_interrupts();
+  if (arguments.no_log && arguments.video)
+    throw ConfigError("--no-log: the film is made from the log; leave one of the options away");
   const std::vector<Variant> variants = variants_of(arguments);
   const ReplayWork work(arguments, modules);
   TerminalListener listener(Terminal::of_standard_error());
@@ -303,6 +325,8 @@ Verb replay_verb() {
         options.option("--out", arguments->out, "folder for the results").shows_default();
         options.flag("--no-log", arguments->no_log, "write no log and no report, only the verdict");
         options.flag("--no-report", arguments->no_report, "write no report");
+        options.flag("--video", arguments->video,
+                     "make video.mp4: the vehicle by our estimate, the recorded one as its ghost");
         options.flag("--json", arguments->json, "the verdict as JSON on standard output");
         options.footer(
             "Examples:\n"

@@ -73,16 +73,32 @@ struct UlogText {
 
 /// What a file does not tell, or tells wrongly.
 struct UlogDamage {
-  std::uint64_t cut_bytes = 0;      ///< of a message that has no end: power was cut
-  std::uint64_t skipped_bytes = 0;  ///< in the middle, where no message could be made out
+  std::uint64_t cut_bytes = 0;
+  std::uint64_t skipped_bytes = 0;
   int skipped_places = 0;
-  std::uint64_t unknown_messages = 0;      ///< of types that this reader does not know: passed over
-  std::uint64_t faulty_messages = 0;       ///< of known types, that cannot be
-  std::uint64_t homeless_records = 0;      ///< of topics that were never announced, or have no format
-  std::uint64_t misfit_records = 0;        ///< whose length is not their format's
-  std::uint64_t dropouts = 0;              ///< times that the autopilot's logger lost something
-  std::uint64_t dropout_milliseconds = 0;  ///< how long those were, together
-  int newer_version = 0;                   ///< of the format than this reader knows; 0: not newer
+  std::uint64_t unknown_messages = 0;
+  std::uint64_t faulty_messages = 0;
+  std::uint64_t homeless_records = 0;
+  std::uint64_t misfit_records = 0;
+  std::uint64_t dropouts = 0;
+  std::uint64_t dropout_milliseconds = 0;
+  int newer_version = 0;
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("cut_bytes", self.cut_bytes, "B", "of a message that has no end: power was cut");
+    visit("skipped_bytes", self.skipped_bytes, "B", "in the middle, where no message could be made out");
+    visit("skipped_places", self.skipped_places, "1", "in how many places that was");
+    visit("unknown_messages", self.unknown_messages, "1",
+          "of types that this reader does not know: passed over");
+    visit("faulty_messages", self.faulty_messages, "1", "of known types, that cannot be");
+    visit("homeless_records", self.homeless_records, "1",
+          "of topics that were never announced, or have no format");
+    visit("misfit_records", self.misfit_records, "1", "whose length is not their format's");
+    visit("dropouts", self.dropouts, "1", "times that the autopilot's logger lost something");
+    visit("dropout_milliseconds", self.dropout_milliseconds, "ms", "how long those were, together");
+    visit("newer_version", self.newer_version, "1", "of the format than this reader knows; 0: not newer");
+  }
 };
 
 /// A ULog file, the log of a PX4 autopilot, read into memory.

@@ -39,6 +39,10 @@ const char* const kPageScript = R"js(
   const valueAt = (s, panel, curve, t) => {
     curve.points = curve.points || curvePoints(curve.path);
     const x = s.left + (t - s.from) / (s.to - s.from) * (s.right - s.left);
+    if (curve.path.classList.contains('dots')) {
+      const dot = curve.points.find((run) => Math.abs(run[0][0] - x) < 4);
+      return dot ? panel.low + (panel.bottom - dot[0][1]) / (panel.bottom - panel.top) * (panel.high - panel.low) : null;
+    }
     for (const run of curve.points) {
       if (!run.length || x < run[0][0] || x > run[run.length - 1][0]) continue;
       let a = 0, b = run.length - 1;

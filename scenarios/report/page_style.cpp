@@ -32,6 +32,7 @@ h2 { font-size: 18px; margin: 40px 0 10px; letter-spacing: -0.005em; }
 .warning { color: var(--fail); margin: 4px 0 0; }
 .reasons { margin: 10px 0 0; padding-left: 18px; overflow-wrap: anywhere; }
 .identity { display: flex; flex-wrap: wrap; gap: 4px 26px; margin: 14px 0 0; }
+.identity.flight { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); } .identity.flight dt { white-space: nowrap; }
 .identity div { display: flex; gap: 7px; } .identity dt { color: var(--soft); } .identity dd { margin: 0; font-variant-numeric: tabular-nums; }
 .tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 12px; margin: 14px 0 0; }
 .tile { background: var(--card); border: 1px solid var(--hair); border-radius: 10px; padding: 12px 16px; }
@@ -63,7 +64,7 @@ text.number, .axis-name, .unit, .missing { fill: var(--soft); } text.number { fo
 .panel-title { font-weight: 600; } .unit { font-weight: 400; }
 .curve { fill: none; stroke: var(--ink); stroke-width: 1.6; stroke-linejoin: round; vector-effect: non-scaling-stroke; } .curve.thin { stroke-width: 1.1; }
 .curve.c0 { stroke: var(--c0); } .curve.c1 { stroke: var(--c1); } .curve.c2 { stroke: var(--c2); } .curve.c3 { stroke: var(--c3); } .curve.c4 { stroke: var(--c4); } .curve.c5 { stroke: var(--c5); } .curve.c6 { stroke: var(--c6); } .curve.c7 { stroke: var(--c7); }
-.curve.command { stroke-width: 5; stroke-opacity: 0.32; stroke-linecap: butt; } .curve.command.plain { stroke: var(--command); } .curve.under { stroke-width: 2.4; } .dashed { stroke-dasharray: 6 4; } .dotted { stroke-dasharray: 1.5 3.5; }
+.curve.command { stroke-width: 5; stroke-opacity: 0.32; stroke-linecap: butt; } .curve.command.plain { stroke: var(--command); } .curve.under { stroke-width: 2.4; } .dashed { stroke-dasharray: 6 4; } .dotted { stroke-dasharray: 1.5 3.5; } .curve.dots { stroke-width: 3; stroke-linecap: round; } .curve.refused { stroke: var(--fault); stroke-width: 5; } .curve.bound { stroke-width: 1.1; stroke-dasharray: 5 3; }
 .strip { stroke: none; fill: var(--c0); fill-opacity: 0.16; } .strip.several { fill-opacity: 0.06; } .strip.c1 { fill: var(--c1); } .strip.c2 { fill: var(--c2); } .strip.c3 { fill: var(--c3); } .strip.c4 { fill: var(--c4); } .strip.c5 { fill: var(--c5); } .strip.c6 { fill: var(--c6); } .strip.c7 { fill: var(--c7); }
 .phase { fill: transparent; } .phase.offboard { fill: var(--flight); } .phase.take_off, .phase.hold { fill: var(--climb); } .phase.landing { fill: var(--descend); }
 .phase-lane { fill: var(--card); stroke: var(--hair); vector-effect: non-scaling-stroke; } .phase-lane.offboard { fill: var(--flight); } .phase-lane.take_off, .phase-lane.hold { fill: var(--climb); } .phase-lane.landing { fill: var(--descend); }

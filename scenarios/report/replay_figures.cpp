@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "scenarios/report/flight_data.hpp"
+#include "scenarios/requirements/number_text.hpp"
 
 namespace ironbird::scenarios {
 
@@ -22,9 +22,10 @@ constexpr const char* kEstimate = "/autopilot/estimate";
 constexpr const char* kAttitude = "/recorded/attitude";
 constexpr const char* kPosition = "/recorded/position";
 constexpr const char* kFix = "/recorded/fix";
+constexpr const char* kPhase = "/recorded/phase";
 constexpr const char* kDifference = "/compared/difference";
 constexpr const char* kRecordedStyle = "command plain";
-constexpr const char* kFixStyle = "c7 dotted";
+constexpr const char* kFixStyle = "c7 dots";
 
 struct Axis {
   const char* title;
@@ -79,6 +80,13 @@ plot::Panel panel_of(std::string title, std::string unit, double least_span) {
   return panel;
 }
 
+/// The tint of a phase in flight, one of those of our own.
+std::string style_of_phase(const std::string& name) {
+  if (name == "take-off" || name == "hold") return "take_off";
+  if (name == "land" || name == "precision land" || name == "descend") return "landing";
+  return "offboard";
+}
+
 /// The velocity of the estimate in N.
 Curves velocity_of(const ReportRun& run) {
   Curves out;
@@ -105,19 +113,161 @@ std::string probe_of(const ReportRun& run) {
   return {};
 }
 
-plot::Panel probe_panel(const std::vector<ReportRun>& runs, std::string title, std::string unit,
-                        double factor, const std::string& field, double least_span) {
-  plot::Panel panel = panel_of(std::move(title), std::move(unit), least_span);
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    add(panel, label(runs, i), colour(i), scaled(curve_of(runs[i], probe_of(runs[i]), field), factor));
-  return panel;
+/// Since when there is an estimate, s; never: infinite.
+double ready_time(const ReportRun& run) {
+  const Curve since = estimate_of(run, "p_NB_N.x");
+  for (std::size_t k = 0; k < since.time.size(); ++k) {
+    if (std::isfinite(since.value[k])) return since.time[k];
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+/// What the estimator tells of itself, since there is an estimate.
+Curve probed(const ReportRun& run, const std::string& field, double factor = 1.0) {
+  const double ready = ready_time(run);
+  const Curve all = scaled(curve_of(run, probe_of(run), field), factor);
+  Curve out;
+  for (std::size_t k = 0; k < all.time.size(); ++k) {
+    if (all.time[k] < ready) continue;
+    out.time.push_back(all.time[k]);
+    out.value.push_back(all.value[k]);
+  }
+  return out;
+}
+
+Curve sum_of(Curve one, const Curve& other) {
+  for (std::size_t k = 0; k < std::min(one.value.size(), other.value.size()); ++k)
+    one.value[k] += other.value[k];
+  return one;
+}
+
+/// The values at the times from one to the next of which `count` grew.
+Curve where_it_grew(const Curve& values, const Curve& count) {
+  Curve out;
+  for (std::size_t k = 1; k < std::min(values.value.size(), count.value.size()); ++k) {
+    if (!(count.value[k] > count.value[k - 1])) continue;
+    out.time.push_back(values.time[k]);
+    out.value.push_back(values.value[k]);
+  }
+  return out;
+}
+
+/// A measurement, one axis of it, and the gate that it has to pass.
+struct Gated {
+  const char* title;
+  const char* unit;
+  const char* innovation;
+  const char* gate;
+  const char* rejected;
+  double factor;
+  double least_span;
+};
+constexpr std::array<Gated, 8> kGated{
+    {{"fix, north", "m", "innovation_position_x", "gate_position_x", "rejected_position", 1.0, 0.1},
+     {"fix, east", "m", "innovation_position_y", "gate_position_y", "rejected_position", 1.0, 0.1},
+     {"fix, down", "m", "innovation_position_z", "gate_position_z", "rejected_position", 1.0, 0.1},
+     {"fix, velocity north", "m/s", "innovation_velocity_x", "gate_velocity_x", "rejected_velocity", 1.0,
+      0.1},
+     {"fix, velocity east", "m/s", "innovation_velocity_y", "gate_velocity_y", "rejected_velocity", 1.0, 0.1},
+     {"fix, velocity down", "m/s", "innovation_velocity_z", "gate_velocity_z", "rejected_velocity", 1.0, 0.1},
+     {"barometer", "Pa", "innovation_pressure", "gate_pressure", "rejected_baro", 1.0, 1.0},
+     {"compass", "deg", "innovation_heading", "gate_heading", "rejected_mag", kDegrees, 1.0}}};
+
+/// "gate 8.2 to 8.9", the range of a gate that is there.
+std::string gate_text(const Curve& gate) {
+  const auto [low, high] = std::minmax_element(gate.value.begin(), gate.value.end());
+  const std::string from = short_number(*low);
+  const std::string to = short_number(*high);
+  return "gate \u00b1" + (from == to ? from : from + " to " + to);
+}
+
+/// The gate's line on one side; gaps where there is none.
+Curve side(Curve gate, double sign) {
+  for (double& value : gate.value) value = value > 0.0 ? sign * value : kNoNumber;
+  return gate;
+}
+
+/// One of several runs has its name; of one the thing alone is named.
+std::string named(const std::vector<ReportRun>& runs, std::size_t i, const std::string& what) {
+  return runs.size() == 1 ? what : what + ", " + runs[i].label();
+}
+
+void add_gated(plot::Panel& panel, const std::vector<ReportRun>& runs, std::size_t i, const Gated& row) {
+  const Curve innovation = probed(runs[i], row.innovation, row.factor);
+  const Curve gate = probed(runs[i], row.gate, row.factor);
+  const Curve judged = side(gate, 1.0);
+  if (without_gaps(judged).empty()) return;  // nobody judges this axis
+  panel.title += (panel.series.empty() ? ": " : "; ") + named(runs, i, gate_text(without_gaps(judged)));
+  for (const double sign : {1.0, -1.0}) {
+    const Curve line = side(gate, sign);
+    panel.bounds.push_back({named(runs, i, "gate"), colour(i) + " bound", line.time, line.value});
+  }
+  add(panel, runs.size() == 1 ? "innovation" : runs[i].label(), colour(i), innovation);
+  add(panel, "refused", "refused dots", where_it_grew(innovation, probed(runs[i], row.rejected)));
+}
+
+/// What is found of one axis of a sensor, within three sigmas where they are told.
+struct Bias {
+  const char* title;
+  const char* unit;
+  std::array<const char*, 2> parts;  ///< fields that add up; empty: one only
+  const char* sigma;
+  double factor;
+  double least_span;
+};
+constexpr std::array<Bias, 3> kBiases{
+    {{"gyro", "deg/s", {"gyro_bias", ""}, "sigma_gyro_bias", kDegrees, 0.01},
+     {"accelerometer",
+      "m/s^2",
+      {"accelerometer_offset", "accelerometer_bias"},
+      "sigma_accelerometer_bias",
+      1.0,
+      0.01},
+     {"compass, share of the field", "1", {"mag_bias", ""}, "sigma_mag_bias", 1.0, 0.01}}};
+
+void add_bias(plot::Panel& panel, const std::vector<ReportRun>& runs, std::size_t i, const Bias& bias,
+              const std::string& axis) {
+  constexpr double kSigmas = 3.0;
+  Curve found = probed(runs[i], bias.parts[0] + axis, bias.factor);
+  if (*bias.parts[1] != '\0') found = sum_of(found, probed(runs[i], bias.parts[1] + axis, bias.factor));
+  const Curve sigma = probed(runs[i], bias.sigma + axis, kSigmas * bias.factor);
+  const bool is_sought = !sigma.empty() || std::any_of(found.value.begin(), found.value.end(),
+                                                       [](double value) { return value != 0.0; });
+  if (found.empty() || !is_sought) return;
+  if (!sigma.empty()) {
+    panel.strips.push_back({runs.size() == 1 ? "3\u03c3" : "",
+                            colour(i) + (runs.size() == 1 ? "" : " several"), sigma.time,
+                            sum_of(scaled(sigma, -1.0), found).value, sum_of(sigma, found).value});
+  }
+  add(panel, label(runs, i), colour(i), found);
 }
 
 }  // namespace
 
 bool is_replay(const ReportRun& run) {
   return run.log().topic(kPosition) != nullptr || run.log().topic(kAttitude) != nullptr ||
-         run.log().topic(kFix) != nullptr;
+         run.log().topic(kFix) != nullptr || run.log().topic(kPhase) != nullptr;
+}
+
+std::vector<plot::Stretch> recorded_phases(const ReportRun& run) {
+  std::vector<plot::Stretch> out;
+  const LogTopic* const topic = run.log().topic(kPhase);
+  if (topic == nullptr || topic->time().empty()) return out;
+  const std::vector<double>& armed = run.column(kPhase, "armed");
+  const std::vector<double>& airborne = run.column(kPhase, "airborne");
+  const std::vector<std::string>& modes = topic->texts("mode");
+  for (std::size_t k = 0; k < std::min({armed.size(), airborne.size(), modes.size()}); ++k) {
+    const double since = topic->time()[k];
+    if (!out.empty()) out.back().to = since;
+    const std::string name = airborne[k] > 0.5 ? (modes[k].empty() ? "airborne" : modes[k])
+                             : armed[k] > 0.5  ? "on the ground"
+                                               : "disarmed";
+    if (out.empty() || out.back().name != name)
+      out.push_back({since, since, name, airborne[k] > 0.5 ? style_of_phase(name) : ""});
+  }
+  const std::vector<double>& estimates = run.time(kEstimate);
+  if (!out.empty() && !estimates.empty()) out.back().to = std::max(out.back().to, estimates.back());
+  return out;
 }
 
 plot::Plane replayed_path(const std::vector<ReportRun>& runs) {
@@ -129,10 +279,10 @@ plot::Plane replayed_path(const std::vector<ReportRun>& runs) {
     if (!found.points.empty()) plane.tracks.push_back(std::move(found));
   };
   const ReportRun& first = runs.front();
-  track("fixes", kFixStyle, curve_of(first, kFix, "p_N.x"), curve_of(first, kFix, "p_N.y"));
   const Curve known = curve_of(first, kPosition, "position_known");
   track(recorded_name(first), kRecordedStyle, where(curve_of(first, kPosition, "p_NB_N.x"), known),
         where(curve_of(first, kPosition, "p_NB_N.y"), known));
+  track("fixes", kFixStyle, curve_of(first, kFix, "p_N.x"), curve_of(first, kFix, "p_N.y"));
   for (std::size_t i = 0; i < runs.size(); ++i)
     track(label(runs, i), colour(i), estimate_of(runs[i], "p_NB_N.x"), estimate_of(runs[i], "p_NB_N.y"));
   return plane;
@@ -145,9 +295,9 @@ plot::TimeStack replayed_position(const std::vector<ReportRun>& runs) {
     plot::Panel panel = panel_of(axis.title, "m", 0.5);
     const std::string field = std::string("p_NB_N") + axis.suffix;
     const char* const known = axis.suffix == kAxes[2].suffix ? "height_known" : "position_known";
-    add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("p_N") + axis.suffix));
     add(panel, recorded_name(first), kRecordedStyle,
         where(curve_of(first, kPosition, field), curve_of(first, kPosition, known)));
+    add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("p_N") + axis.suffix));
     for (std::size_t i = 0; i < runs.size(); ++i)
       add(panel, label(runs, i), colour(i), estimate_of(runs[i], field));
     stack.panels.push_back(std::move(panel));
@@ -162,10 +312,10 @@ plot::TimeStack replayed_velocity(const std::vector<ReportRun>& runs) {
   for (const ReportRun& run : runs) ours.push_back(velocity_of(run));
   for (std::size_t k = 0; k < kAxes.size(); ++k) {
     plot::Panel panel = panel_of(kAxes[k].title, "m/s", 0.5);
-    add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("v_N") + kAxes[k].suffix));
     add(panel, recorded_name(first), kRecordedStyle,
         where(curve_of(first, kPosition, std::string("v_NB_N") + kAxes[k].suffix),
               curve_of(first, kPosition, "velocity_known")));
+    add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("v_N") + kAxes[k].suffix));
     for (std::size_t i = 0; i < runs.size(); ++i) add(panel, label(runs, i), colour(i), ours[i][k]);
     stack.panels.push_back(std::move(panel));
   }
@@ -228,39 +378,30 @@ plot::TimeStack replayed_differences(const std::vector<ReportRun>& runs) {
 
 plot::TimeStack replayed_innovations(const std::vector<ReportRun>& runs) {
   plot::TimeStack stack{
-      "How the measurements fitted: normalised innovations squared, and how many were refused so far",
+      "Innovations: measured less expected, the gate that each has to pass, and what was refused",
       {},
       1180.0,
       84.0};
-  constexpr std::array<std::pair<const char*, const char*>, 4> kSensors{{{"fix, position", "position"},
-                                                                         {"fix, velocity", "velocity"},
-                                                                         {"barometer", "baro"},
-                                                                         {"compass", "mag"}}};
-  for (const auto& [title, name] : kSensors) {
-    plot::Panel panel = probe_panel(runs, title, "1", 1.0, std::string("nis_") + name, 1.0);
-    for (std::size_t i = 0; i < runs.size(); ++i)
-      add(panel, "refused", colour(i) + " dashed",
-          curve_of(runs[i], probe_of(runs[i]), std::string("rejected_") + name));
-    stack.panels.push_back(std::move(panel));
+  for (const Gated& row : kGated) {
+    plot::Panel panel = panel_of(row.title, row.unit, row.least_span);
+    for (std::size_t i = 0; i < runs.size(); ++i) add_gated(panel, runs, i, row);
+    if (!panel.series.empty()) stack.panels.push_back(std::move(panel));
   }
+  if (stack.panels.empty()) stack.panels.push_back(panel_of("innovations", "", 1.0));
   return stack;
 }
 
 plot::TimeStack replayed_biases(const std::vector<ReportRun>& runs) {
   plot::TimeStack stack{"Biases that were found", {}, 1180.0, 84.0};
-  for (const auto& [title, field, unit, factor] :
-       std::initializer_list<std::tuple<const char*, const char*, const char*, double>>{
-           {"gyro", "gyro_bias_B", "deg/s", kDegrees},
-           {"accelerometer", "accelerometer_bias_B", "m/s^2", 1.0}}) {
+  for (const Bias& bias : kBiases) {
     for (const auto& [axis, suffix] :
-         {std::pair("front", ".x"), std::pair("right", ".y"), std::pair("down", ".z")}) {
-      plot::Panel panel = panel_of(std::string(title) + ", " + axis, unit, 0.01);
-      for (std::size_t i = 0; i < runs.size(); ++i)
-        add(panel, label(runs, i), colour(i),
-            scaled(estimate_of(runs[i], std::string(field) + suffix), factor));
-      stack.panels.push_back(std::move(panel));
+         {std::pair("front", "_x"), std::pair("right", "_y"), std::pair("down", "_z")}) {
+      plot::Panel panel = panel_of(std::string(bias.title) + ", " + axis, bias.unit, bias.least_span);
+      for (std::size_t i = 0; i < runs.size(); ++i) add_bias(panel, runs, i, bias, suffix);
+      if (!panel.series.empty()) stack.panels.push_back(std::move(panel));
     }
   }
+  if (stack.panels.empty()) stack.panels.push_back(panel_of("biases", "", 1.0));
   return stack;
 }
 

@@ -5,6 +5,7 @@
 
 #include "scenarios/report/figures.hpp"
 #include "scenarios/report/flight_data.hpp"
+#include "scenarios/report/replay_figures.hpp"
 
 namespace ironbird::scenarios {
 
@@ -58,7 +59,8 @@ plot::TimeFrame time_frame(const std::vector<ReportRun>& runs) {
     }
   }
   if (runs.empty()) return frame;
-  frame.stretches = phases_of(runs.front());
+  // Our own controller only looks on in a flight that was recorded.
+  frame.stretches = is_replay(runs.front()) ? recorded_phases(runs.front()) : phases_of(runs.front());
   for (const RunEvent& event : runs.front().events()) {
     if (!has_mark(event)) continue;
     const bool is_fault = event.kind.starts_with("fault") || event.kind == "gust" || event.text == "crashed";

@@ -70,10 +70,43 @@ std::string identity(const ReportRun& run) {
   return element("dl", "identity", out);
 }
 
+/// What was replayed, and how: a line each.
+std::string flight_facts(const ReplayedFlight& flight) {
+  // What nobody found, for the flight was told it, is not shown.
+  const auto found = [](const std::string& what, const std::string& why) {
+    return why.empty() ? "" : what + " (" + why + ")";
+  };
+  const std::string mag =
+      flight.magnetometer ? "instance " + std::to_string(*flight.magnetometer) : std::string("none");
+  const std::array<std::pair<const char*, std::string>, 7> facts{
+      {{"log", flight.file},
+       {"recorded by", flight.recorder + (flight.simulated ? ", a simulation" : "")},
+       {"compared with",
+        flight.compared_with.empty() ? "nothing: the log has no estimate" : flight.compared_with},
+       {"from", found(with_unit(flight.window_begin, "s") + " to " + with_unit(flight.window_end, "s"),
+                      flight.window_source)},
+       {"magnetometer", found(mag, flight.magnetometer_source)},
+       {"declination", found(with_unit(flight.declination, "rad"), flight.declination_source)},
+       {"fixes",
+        found(with_unit(1e3 * flight.gnss_delay, "ms") + " old on arrival", flight.gnss_delay_source)}}};
+  std::string out;
+  for (const auto& [name, value] : facts) {
+    if (value.empty()) continue;
+    out += "<div><dt>" + std::string(name) + "</dt><dd>" + typeset(escaped(value)) + "</dd></div>";
+  }
+  return element("dl", "identity flight", out);
+}
+
 /// The figures that the paper reports, as tiles.
 std::string tiles(const Verdict& verdict) {
-  constexpr std::array<std::pair<const char*, const char*>, 6> kShown{
-      {{"path_rms_total_m", "path error, rms"},
+  constexpr std::array<std::pair<const char*, const char*>, 12> kShown{
+      {{"horizontal_difference_rms_m", "horizontal difference, rms"},
+       {"down_difference_rms_m", "difference down, rms"},
+       {"velocity_difference_rms_mps", "velocity difference, rms"},
+       {"roll_difference_rms_deg", "roll difference, rms"},
+       {"pitch_difference_rms_deg", "pitch difference, rms"},
+       {"heading_difference_rms_deg", "heading difference, rms"},
+       {"path_rms_total_m", "path error, rms"},
        {"true_path_rms_total_m", "true path error, rms"},
        {"estimate_position_rms_m", "position estimate, rms"},
        {"estimate_velocity_rms_mps", "velocity estimate, rms"},
@@ -120,6 +153,7 @@ std::string verdict_section(const ReportRun& run) {
   out += element("p", "summary", judged ? summary_line(*run.verdict()) : "There is no verdict of this log.");
   for (const std::string& note : run.notes()) out += element("p", "warning", escaped(note));
   if (judged) out += reasons_list(*run.verdict());
+  if (judged && run.verdict()->flight) out += flight_facts(*run.verdict()->flight);
   out += identity(run) + "</div></section>";
   return judged ? out + tiles(*run.verdict()) : out;
 }

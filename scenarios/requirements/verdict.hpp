@@ -9,6 +9,7 @@
 #include "scenarios/requirements/check.hpp"
 #include "scenarios/requirements/metrics.hpp"
 #include "scenarios/requirements/outcome.hpp"
+#include "scenarios/requirements/replayed_flight.hpp"
 #include "scenarios/requirements/timeline.hpp"
 
 namespace ironbird::scenarios {
@@ -39,6 +40,7 @@ struct Verdict {
   std::vector<Metric> metrics;
   std::vector<RunEvent> events;
   std::optional<BenchTiming> timing = {};
+  std::optional<ReplayedFlight> flight = {};
 
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
@@ -50,6 +52,7 @@ struct Verdict {
     visit("metrics", self.metrics, "", "figures of the run");
     visit("events", self.events, "", "what happened, in order of time");
     visit("timing", self.timing, "", "how the bench kept its time; of runs in real time");
+    visit("flight", self.flight, "", "the recorded flight that was replayed; of replays");
   }
 };
 

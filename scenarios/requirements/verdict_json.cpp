@@ -9,6 +9,7 @@
 
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/config/write_file.hpp"
+#include "scenarios/requirements/difference_metrics.hpp"
 
 namespace ironbird::scenarios {
 
@@ -109,9 +110,45 @@ BenchTiming timing_from_json(const Json& json) {
   return timing;
 }
 
+Json flight_to_json(const ReplayedFlight& flight) {
+  return {{"file", flight.file},
+          {"recorder", flight.recorder},
+          {"compared_with", flight.compared_with},
+          {"simulated", flight.simulated},
+          {"magnetometer", flight.magnetometer ? Json(*flight.magnetometer) : Json(nullptr)},
+          {"magnetometer_source", flight.magnetometer_source},
+          {"declination_rad", number(flight.declination)},
+          {"declination_source", flight.declination_source},
+          {"gnss_delay_s", number(flight.gnss_delay)},
+          {"gnss_delay_source", flight.gnss_delay_source},
+          {"window_s", Json::array({number(flight.window_begin), number(flight.window_end)})},
+          {"window_source", flight.window_source}};
+}
+
+ReplayedFlight flight_from_json(const Json& json) {
+  ReplayedFlight flight;
+  flight.file = json.at("file");
+  flight.recorder = json.at("recorder");
+  flight.compared_with = json.at("compared_with");
+  flight.simulated = json.at("simulated");
+  if (!json.at("magnetometer").is_null()) flight.magnetometer = json.at("magnetometer").get<int>();
+  flight.magnetometer_source = json.at("magnetometer_source");
+  flight.declination = number_at(json, "declination_rad");
+  flight.declination_source = json.at("declination_source");
+  flight.gnss_delay = number_at(json, "gnss_delay_s");
+  flight.gnss_delay_source = json.at("gnss_delay_source");
+  flight.window_begin = json.at("window_s").at(0);
+  flight.window_end = json.at("window_s").at(1);
+  flight.window_source = json.at("window_source");
+  return flight;
+}
+
 /// Unit and meaning of a metric; empty for one that this version does not know.
 Metric known_metric(const std::string& name) {
   for (Metric& metric : RunMetrics::names_and_units()) {
+    if (metric.name == name) return metric;
+  }
+  for (Metric& metric : difference_metrics("the recorded estimate")) {
     if (metric.name == name) return metric;
   }
   return {name, 0.0, "", ""};
@@ -139,6 +176,7 @@ std::string to_json(const Verdict& verdict) {
             {"metrics", std::move(metrics)},
             {"events", std::move(events)}};
   if (verdict.timing) json["timing"] = timing_to_json(*verdict.timing);
+  if (verdict.flight) json["flight"] = flight_to_json(*verdict.flight);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -159,6 +197,7 @@ Verdict verdict_from_json(const std::string& text) {
       verdict.events.push_back({number_at(event, "time"), event.at("kind"), event.at("text")});
     }
     if (json.contains("timing")) verdict.timing = timing_from_json(json.at("timing"));
+    if (json.contains("flight")) verdict.flight = flight_from_json(json.at("flight"));
   } catch (const Json::exception& error) {
     throw std::invalid_argument(std::string("no verdict: ") + error.what());
   }

@@ -8,8 +8,8 @@
 namespace ironbird::scenarios {
 
 /// The verdict as JSON text: keys scenario, title, seed, digest, verdict, reasons, checks, metrics, events,
-/// in this order; what is no number is null. The same run gives the same bytes, but for the metric
-/// `real_time_factor`.
+/// in this order, `timing` of a run in real time and `flight` of a replay; what is no number is null. The
+/// same run gives the same bytes, but for the metric `real_time_factor`.
 std::string to_json(const Verdict& verdict);
 
 /// Reads what to_json() wrote. @throws std::invalid_argument naming what is missing or wrong

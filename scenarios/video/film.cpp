@@ -35,6 +35,15 @@ int worker_count(int wanted, std::size_t frames) {
   return std::min(count, static_cast<int>(std::min<std::size_t>(frames, 64)));
 }
 
+// Corners at the same frames as the vehicle's own trail.
+void add_ghost_trail(const FilmScript& script, std::size_t first, std::size_t index,
+                     simulator::Overlays& overlays) {
+  for (std::size_t i = first; i < index; i += kTrailStride) {
+    if (script.frames[i].estimate) overlays.ghost_trail_N.push_back(script.frames[i].estimate->p_NB_N);
+  }
+  if (script.frames[index].estimate) overlays.ghost_trail_N.push_back(script.frames[index].estimate->p_NB_N);
+}
+
 const char* preset(simulator::Quality quality) {
   return quality == simulator::Quality::kPreview ? "ultrafast" : "veryfast";
 }
@@ -59,6 +68,11 @@ simulator::Overlays overlays_at(const FilmScript& script, std::size_t index) {
     overlays.trail_N.push_back(script.frames[i].truth.pose.p_NB_N);
   }
   overlays.trail_N.push_back(frame.truth.pose.p_NB_N);
+  if (script.ghost_trail) add_ghost_trail(script, first, index, overlays);
+  for (const FixMark& fix : script.fixes) {
+    if (fix.time <= frame.time && fix.time > frame.time - script.trail_seconds)
+      overlays.marks_N.push_back(fix.p_N);
+  }
   return overlays;
 }
 

@@ -34,6 +34,18 @@ struct FilmFrame {
   }
 };
 
+/// A fix of a receiver: where it said that the vehicle was.
+struct FixMark {
+  double time = 0.0;
+  simulator::Vector3 p_N = simulator::Vector3::Zero();
+
+  template <class Self, class Visit>
+  static void describe(Self& self, Visit&& visit) {
+    visit("time", self.time, "s", "from when on it is shown, as long as the trail");
+    visit("p_N", self.p_N, "m", "position");
+  }
+};
+
 /// Everything a film needs, and nothing else: any frame can be drawn alone, in any order, by any process.
 struct FilmScript {
   simulator::RendererParams renderer;
@@ -42,6 +54,8 @@ struct FilmScript {
   std::string title;
   std::vector<simulator::Vector3> planned_path_N;
   std::vector<simulator::WaypointMark> waypoints;
+  bool ghost_trail = false;
+  std::vector<FixMark> fixes;
   std::vector<FilmFrame> frames;
 
   VideoFormat format() const { return {renderer.width, renderer.height, frame_rate}; }
@@ -54,6 +68,8 @@ struct FilmScript {
     visit("title", self.title, "", "first line of text");
     visit("planned_path_N", self.planned_path_N, "m", "corners of the path");
     visit("waypoints", self.waypoints, "", "marks");
+    visit("ghost_trail", self.ghost_trail, "1", "the ghost has a trail of its own");
+    visit("fixes", self.fixes, "", "of a receiver, in order of time");
     visit("frames", self.frames, "", "one per picture");
   }
 };

@@ -7,30 +7,25 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 
 #include "autopilot/types/flight_status.hpp"
 #include "autopilot/types/state_estimate.hpp"
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/held_column.hpp"
 #include "scenarios/record/logged_route.hpp"
-#include "scenarios/video/camera_work.hpp"
+#include "scenarios/video/film_shots.hpp"
 #include "scenarios/video/pose_track.hpp"
 
 namespace ironbird::scenarios {
 namespace {
 
-using simulator::Camera;
 using simulator::kMaxRotors;
-using simulator::Pose;
 using simulator::Vector3;
 
 constexpr double kEventShown = 3.0;     // s that an event's text stays in the picture
 constexpr double kBladeSpeed = 40.0;    // rad/s, up to here blades turn as they do
 constexpr double kApparentSpeed = 9.0;  // rad/s that the streaks of a faster rotor seem to turn with
 constexpr double kSpeedWindow = 0.1;    // s over which the speed in the text is taken
-constexpr double kLongest =
-    86400.0;  // s, as long as a run may last; all pictures of a film are planned in memory
 constexpr std::array<double, 2> kTurn{1.0, -1.0};  // rotors turn left and right alternately
 
 const LogTopic& need(const Log& log, const char* name) {
@@ -140,29 +135,13 @@ class Director {
   }
 
   void shoot(FilmScript& script) {
-    const double begin = std::max(options_.begin, shown_.begin());
-    const double end = std::min(options_.end, shown_.end());
-    refuse_length(begin, end);
-    const auto count =
-        static_cast<std::size_t>(std::max(1.0, std::floor((end - begin) * options_.frame_rate + 1.5)));
-    std::vector<Pose> poses;
-    for (std::size_t i = 0; i < count; ++i) {
-      script.frames.push_back(frame(begin + static_cast<double>(i) / options_.frame_rate));
-      poses.push_back(script.frames.back().truth.pose);
+    for (const double time : frame_times(shown_topic_.name(), shown_.begin(), shown_.end(), options_)) {
+      script.frames.push_back(frame(time));
     }
-    aim(script, poses);
+    aim_cameras(script, options_);
   }
 
  private:
-  // One stamp of centuries makes pictures without end.
-  void refuse_length(double begin, double end) const {
-    if (end - begin <= kLongest) return;
-    throw UserError("film: " + shown_topic_.name() +
-                    formatted(" lasts from %.1f s to %.1f s", shown_.begin(), shown_.end()) +
-                    ", a film at most " + std::to_string(static_cast<int>(kLongest)) + " s" +
-                    ": cut the log, or take out the time stamp that is wrong");
-  }
-
   FilmFrame frame(double time) {
     FilmFrame frame;
     frame.time = time;
@@ -215,32 +194,6 @@ class Director {
       sample.rotor_speed[i] = speed;
       sample.rotor_angle[i] = std::remainder(angle_[i], 2.0 * std::numbers::pi);
     }
-  }
-
-  void aim(FilmScript& script, const std::vector<Pose>& poses) const {
-    const std::vector<Camera> chase = chase_cameras(poses, 1.0 / options_.frame_rate);
-    std::vector<Vector3> everything_N = script.planned_path_N;
-    for (const Pose& pose : poses) {
-      everything_N.push_back(pose.p_NB_N);
-    }
-    const Camera top = top_camera(everything_N, static_cast<double>(options_.width) / options_.height);
-    std::size_t cut = 0;
-    std::string name = "chase";
-    for (std::size_t i = 0; i < script.frames.size(); ++i) {
-      for (; cut < options_.cuts.size() && options_.cuts[cut].at <= script.frames[i].time; ++cut) {
-        name = options_.cuts[cut].camera;
-      }
-      script.frames[i].camera = name == "chase" ? chase[i] : name == "top" ? top : fixed(name);
-    }
-  }
-
-  const Camera& fixed(const std::string& name) const {
-    for (const NamedCamera& camera : options_.cameras) {
-      if (camera.name == name) {
-        return camera.camera;
-      }
-    }
-    throw std::invalid_argument("film: there is no camera named '" + name + "'");
   }
 
   const FilmOptions& options_;

@@ -65,7 +65,8 @@ struct FilmOptions {
 };
 
 /// The film of a log. @throws UserError when the log lacks the poses or they last longer than a day,
-/// std::invalid_argument when a cut names a camera that is not there
+/// std::invalid_argument when a cut names a camera that is not there. Of a replayed flight:
+/// replay_film_script()
 FilmScript film_script(const Log& log, const FilmOptions& options);
 
 /// The frame of the script at a time, or the nearest. @param time  s since the start of the run

@@ -54,6 +54,8 @@ struct WaypointMark {
 struct Overlays {
   std::vector<Vector3> planned_path_N;
   std::vector<Vector3> trail_N;
+  std::vector<Vector3> ghost_trail_N;
+  std::vector<Vector3> marks_N;
   std::vector<WaypointMark> waypoints;
   std::optional<Pose> estimate;
   std::string title;
@@ -63,6 +65,8 @@ struct Overlays {
   static void describe(Self& self, Visit&& visit) {
     visit("planned_path_N", self.planned_path_N, "m", "corners of the path to fly");
     visit("trail_N", self.trail_N, "m", "where the vehicle has been, oldest first");
+    visit("ghost_trail_N", self.ghost_trail_N, "m", "where the ghost has been, oldest first");
+    visit("marks_N", self.marks_N, "m", "single points, small");
     visit("waypoints", self.waypoints, "", "numbered marks");
     visit("estimate", self.estimate, "", "where the autopilot believes to be; drawn as a ghost");
     visit("title", self.title, "", "first line of text");

@@ -21,12 +21,14 @@ constexpr double kGhostFull = 0.40;    // m
 
 constexpr double kSmallVehicle = 20.0;  // px at 720 rows: a vehicle of a smaller radius is ringed
 constexpr double kPlate = 14.0;         // px at 720 rows: radius of a waypoint's plate
+constexpr double kMark = 3.5;           // px at 720 rows: radius of a small mark
 constexpr double kFaintPlate = 0.15;    // of its opacity that a plate keeps where the vehicle is
 constexpr double kHalo = 20.0;          // px at 720 rows, just outside a waypoint's plate
 
 constexpr Pixel kPathColor{255, 255, 255, 255};
 constexpr Pixel kTrailColor{255, 132, 28, 255};
 constexpr Pixel kGhostColor{40, 214, 255, 255};
+constexpr Pixel kMarkColor{250, 214, 40, 255};
 constexpr Pixel kPlateColor{24, 78, 152, 255};
 constexpr Pixel kReachedColor{38, 128, 78, 255};
 constexpr Pixel kTextColor{240, 244, 248, 255};
@@ -145,6 +147,7 @@ struct SceneRenderer::Parts {
                   Image& image);
   void draw_route(const RenderSample& sample, const Overlays& overlays, const Projection& projection,
                   Painter& painter) const;
+  void draw_trail(const std::vector<Vector3>& points_N, Pixel color, Painter& painter) const;
   std::optional<ScreenPoint> small_vehicle(const RenderSample& sample, const Projection& projection) const;
   double clearance(const WaypointMark& mark, const std::optional<ScreenPoint>& vehicle,
                    const Projection& projection) const;
@@ -218,10 +221,10 @@ void SceneRenderer::Parts::draw_route(const RenderSample& sample, const Overlays
                                       const Projection& projection, Painter& painter) const {
   const std::optional<ScreenPoint> vehicle = small_vehicle(sample, projection);
   painter.path(overlays.planned_path_N, 2.0 * scale, kPathColor, 0.85, 0.5);
-  const std::size_t count = overlays.trail_N.size();
-  for (std::size_t i = 1; i < count; ++i) {
-    const double age = static_cast<double>(count - i) / static_cast<double>(count);
-    painter.line(overlays.trail_N[i - 1], overlays.trail_N[i], 2.6 * scale, kTrailColor, 0.9 - 0.65 * age);
+  draw_trail(overlays.ghost_trail_N, kGhostColor, painter);
+  draw_trail(overlays.trail_N, kTrailColor, painter);
+  for (const Vector3& mark_N : overlays.marks_N) {
+    painter.plate(mark_N, kMark * scale, kMarkColor, kMarkColor, 0.9, "", small_letters);
   }
   for (const WaypointMark& mark : overlays.waypoints) {
     const Pixel color = mark.reached ? kReachedColor : kPlateColor;
@@ -230,6 +233,16 @@ void SceneRenderer::Parts::draw_route(const RenderSample& sample, const Overlays
     painter.ring(foot_N, 0.35, 1.6 * scale, kPathColor, 0.75);
     const double opacity = (mark.reached ? 0.75 : 0.95) * clearance(mark, vehicle, projection);
     painter.plate(mark.p_N, kPlate * scale, color, kTextColor, opacity, mark.label, small_letters);
+  }
+}
+
+/// A trail that fades towards its oldest point.
+void SceneRenderer::Parts::draw_trail(const std::vector<Vector3>& points_N, Pixel color,
+                                      Painter& painter) const {
+  const std::size_t count = points_N.size();
+  for (std::size_t i = 1; i < count; ++i) {
+    const double age = static_cast<double>(count - i) / static_cast<double>(count);
+    painter.line(points_N[i - 1], points_N[i], 2.6 * scale, color, 0.9 - 0.65 * age);
   }
 }
 

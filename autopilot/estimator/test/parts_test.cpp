@@ -103,6 +103,16 @@ TEST(GateTest, DoesNotTakeTwoFaultsFarApartForADisagreement) {
   EXPECT_EQ(gate.judge(10.0, 9.0, 3.0, milliseconds(18000)), Verdict::kReset);
 }
 
+TEST(GateTest, TellsHowFarAMeasurementMayBeOff) {
+  constexpr double kVariance = 4.0, kThreshold = 9.0;
+  const double reach = Gate::reach(kVariance, kThreshold);
+  EXPECT_EQ(reach, 6.0);
+  Gate gate;
+  EXPECT_EQ(gate.judge(reach * reach / kVariance, kThreshold, 1.0, Time{0}), Verdict::kAccept);
+  EXPECT_EQ(gate.judge(1.01 * reach * reach / kVariance, kThreshold, 1.0, Time{0}), Verdict::kReject);
+  EXPECT_EQ(Gate::reach(kVariance, 0.0), 0.0) << "no gate";
+}
+
 TEST(GateTest, RejectsWhatIsNoNumber) {
   Gate gate;
   EXPECT_EQ(gate.judge(std::nan(""), 9.0, 2.0, milliseconds(0)), Verdict::kReject);

@@ -21,9 +21,9 @@ using scenarios::TextTable;
 using scenarios::UsdlogTable;
 
 // Two types of record, so that bytes become records.
-constexpr std::uint8_t kUsdlogHeader[] = {0xBC, 2,   0,   2,   0,   1,   0,   'i', 'm', 'u', 0, 2,   0,
-                                          'a',  '(', 'f', ')', 0,   'b', '(', 'h', ')', 0,   2, 0,   'p',
-                                          0,    1,   0,   'c', '(', 'B', ')', 0};
+constexpr std::uint8_t kUsdlogHeader[] = {0xBC, 2,   0,   2,   0,   1,   0,   'i', 'm', 'u', 0, 2,
+                                          0,    'a', '(', 'f', ')', 0,   'b', '(', 'h', ')', 0, 2,
+                                          0,    'p', 0,   1,   0,   'c', '(', 'B', ')', 0};
 
 std::vector<TableLayout> layouts() {
   std::vector<TableLayout> all(5);

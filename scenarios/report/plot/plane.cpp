@@ -97,7 +97,10 @@ std::string track_data(const Track& track, const Frame& frame) {
                          std::hypot(pixel.x - pixels.back().x, pixel.y - pixels.back().y) < kNearer;
     if (!is_near) pixels.push_back(pixel);
   }
-  return path_data(pixels);
+  if (track.style.find("dots") == std::string::npos) return path_data(pixels);
+  std::string dots;
+  for (const Point& pixel : pixels) dots += path_data({pixel, pixel});
+  return dots;
 }
 
 }  // namespace

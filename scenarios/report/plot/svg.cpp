@@ -86,8 +86,10 @@ std::string legend(const std::vector<LegendEntry>& entries) {
   for (const LegendEntry& entry : entries) {
     if (entry.name.empty() || std::find(said.begin(), said.end(), entry) != said.end()) continue;
     said.push_back(entry);
+    const bool is_dots = entry.style.find("dots") != std::string::npos;
     out += "<span><svg width=\"22\" height=\"10\" aria-hidden=\"true\">" +
            (entry.is_strip ? rectangle(0.0, 0.0, 22.0, 10.0, "strip " + entry.style)
+            : is_dots      ? line(11.0, 5.0, 11.0, 5.0, "curve " + entry.style)
                            : line(0.0, 5.0, 22.0, 5.0, "curve " + entry.style)) +
            "</svg>" + escaped(entry.name) + "</span>";
   }

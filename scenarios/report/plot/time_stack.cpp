@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scenarios/report/plot/mark_names.hpp"
 #include "scenarios/report/plot/svg.hpp"
@@ -68,6 +69,11 @@ Axis value_axis(const Panel& panel, double panel_height) {
     for (const double high : strip.high) range.include(std::clamp(high, -reach, reach));
     for (const double low : strip.low) range.include(std::clamp(low, -reach, reach));
   }
+  for (const Series& bound : panel.bounds) {
+    for (const double value : bound.value) {
+      if (std::abs(value) <= reach) range.include(value);
+    }
+  }
   return roomy_axis(range, std::max(2, static_cast<int>(panel_height / 26.0)), panel.least_span);
 }
 
@@ -93,6 +99,30 @@ std::string curve_data(const std::vector<double>& time, const std::vector<double
     run.clear();
   }
   return out + path_data(straighten(run, kTolerance));
+}
+
+/// A dot where there is a value: a line without length, whose ends are round.
+std::string dots_data(const Series& series, const Layout& layout, const Scale& scale) {
+  std::string out;
+  for (std::size_t i = 0; i < series.time.size(); ++i) {
+    const Point at{layout.x(series.time[i]), scale.y(series.value[i])};
+    if (std::isfinite(at.y)) out += path_data({at, at});
+  }
+  return out;
+}
+
+/// A bound, with gaps where it lies outside the panel.
+std::string bound_data(const Series& bound, const Layout& layout, const Scale& scale) {
+  std::vector<double> inside = bound.value;
+  for (double& value : inside) {
+    if (value < scale.axis.low || value > scale.axis.high) value = std::numeric_limits<double>::quiet_NaN();
+  }
+  return curve_data(bound.time, inside, layout, scale);
+}
+
+std::string path_of(const Series& series, const std::string& data) {
+  return "<path class=\"curve " + escaped(series.style) + "\"" + attribute("data-name", series.name) +
+         " d=\"" + data + "\"/>";
 }
 
 std::string strip_data(const Strip& strip, const Layout& layout, const Scale& scale) {
@@ -167,9 +197,10 @@ std::string draw_panel(const Panel& panel, const Layout& layout, std::size_t ind
     out +=
         "<path class=\"strip " + escaped(strip.style) + "\" d=\"" + strip_data(strip, layout, scale) + "\"/>";
   }
+  for (const Series& bound : panel.bounds) out += path_of(bound, bound_data(bound, layout, scale));
   for (const Series& series : panel.series) {
-    out += "<path class=\"curve " + escaped(series.style) + "\"" + attribute("data-name", series.name) +
-           " d=\"" + curve_data(series.time, series.value, layout, scale) + "\"/>";
+    out += path_of(series, series.is_dots() ? dots_data(series, layout, scale)
+                                            : curve_data(series.time, series.value, layout, scale));
   }
   return out + "</g></g></g>";
 }
@@ -272,6 +303,7 @@ std::string legend(const TimeStack& stack) {
   std::vector<LegendEntry> entries;
   for (const Panel& panel : stack.panels) {
     for (const Series& series : panel.series) entries.push_back({series.name, series.style, false});
+    for (const Series& bound : panel.bounds) entries.push_back({bound.name, bound.style, false});
     for (const Strip& strip : panel.strips) entries.push_back({strip.name, strip.style, true});
   }
   return legend(entries);

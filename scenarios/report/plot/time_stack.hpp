@@ -10,9 +10,11 @@ namespace ironbird::scenarios::plot {
 /// One curve over time.
 struct Series {
   std::string name;
-  std::string style;  ///< CSS classes: a colour `c0`…`c7`, and `dashed` or `dotted`
+  std::string style;  ///< CSS classes: a colour `c0`…`c7`, and `dashed`, `dotted`, or `dots` without a line
   std::vector<double> time;
   std::vector<double> value;
+
+  bool is_dots() const { return style.find("dots") != std::string::npos; }
 };
 
 /// A shaded strip between two curves over time, for example a 3-sigma bound.
@@ -30,8 +32,9 @@ struct Panel {
   std::string unit;
   std::vector<Series> series;
   std::vector<Strip> strips;
-  double least_span = 1e-3;  ///< in `unit`: quieter curves are not magnified further
-  std::string missing;       ///< said instead of curves when there are none
+  double least_span = 1e-3;         ///< in `unit`: quieter curves are not magnified further
+  std::string missing;              ///< said instead of curves when there are none
+  std::vector<Series> bounds = {};  ///< drawn where they are near the curves, which they do not flatten
 };
 
 /// A stretch of time in the background: a phase of flight.

@@ -175,6 +175,39 @@ TEST(TimeStackTest, DrawsEachSeriesAndItsTitle) {
   EXPECT_NE(svg.find("<title>fault: gust</title>"), std::string::npos);
 }
 
+/// The data of the first path of this name.
+std::string path_named(const std::string& svg, const std::string& name) {
+  const std::size_t at = svg.find("data-name=\"" + name + "\" d=\"");
+  if (at == std::string::npos) return "no such path";
+  const std::size_t from = svg.find(" d=\"", at) + 4;
+  return svg.substr(from, svg.find('"', from) - from);
+}
+
+TEST(TimeStackTest, DrawsADotForEachValueAndNoLineBetween) {
+  TimeStack stack{"dots", {}, 600.0, 100.0};
+  stack.panels = {
+      Panel{"north", "m", {{"fixes", "c7 dots", {0.0, 5.0, 10.0}, {1.0, kNone, 2.0}}}, {}, 0.5, ""}};
+  const std::string dots = path_named(draw(stack, {{0.0, 10.0, false}, {}, {}}), "fixes");
+  EXPECT_EQ(std::count(dots.begin(), dots.end(), 'M'), 2) << dots;
+  const std::string first = dots.substr(1, dots.find(' ') - 1);
+  EXPECT_EQ(dots.substr(0, dots.find('M', 1)), "M" + first + " " + first);
+}
+
+TEST(TimeStackTest, DrawsABoundThatIsNearAndDoesNotFlattenTheCurveForOneThatIsFar) {
+  const auto drawn = [](double bound) {
+    TimeStack stack{"bounds", {}, 600.0, 100.0};
+    Panel panel{"north", "m", {{"innovation", "c0", {0.0, 10.0}, {-1.0, 1.0}}}, {}, 0.5, ""};
+    panel.bounds = {{"gate", "c0 bound", {0.0, 10.0}, {bound, bound}}};
+    stack.panels = {panel};
+    return draw(stack, {{0.0, 10.0, false}, {}, {}});
+  };
+  EXPECT_EQ(path_named(drawn(3.0), "gate").front(), 'M');
+  EXPECT_EQ(path_named(drawn(300.0), "gate"), "");
+  const std::string alone = path_named(drawn(std::nan("")), "innovation");
+  EXPECT_EQ(path_named(drawn(300.0), "innovation"), alone);
+  EXPECT_NE(path_named(drawn(3.0), "innovation"), alone) << "the axis takes it in";
+}
+
 /// A text of a drawing: where it begins, or its middle or its end is, and how high it stands, px.
 struct TextAt {
   double x = 0.0;

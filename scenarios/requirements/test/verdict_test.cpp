@@ -235,6 +235,35 @@ TEST(VerdictJsonTest, KeepsHowTheBenchKeptItsTime) {
   EXPECT_EQ(read.timing->stages[0].counts, (std::vector<std::uint64_t>{1, 3}));
 }
 
+TEST(VerdictJsonTest, KeepsWhatWasReplayedAndUnitsOfItsFigures) {
+  Verdict verdict;
+  EXPECT_EQ(to_json(verdict).find("\"flight\""), std::string::npos) << "a run has no recorded flight";
+  verdict.flight = ReplayedFlight{.file = "a.ulg",
+                                  .recorder = "PX4 1.14.0 on PX4_FMU_V6C",
+                                  .compared_with = "PX4",
+                                  .simulated = true,
+                                  .magnetometer = 1,
+                                  .magnetometer_source = "as named",
+                                  .declination = -0.19,
+                                  .declination_source = "World Magnetic Model 2020",
+                                  .gnss_delay = 0.11,
+                                  .gnss_delay_source = "EKF2_GPS_DELAY of the log",
+                                  .window_begin = 4.8,
+                                  .window_end = 76.1,
+                                  .window_source = "the whole log"};
+  verdict.metrics = {{"velocity_difference_rms_mps", 0.12, "", ""}};
+  const Verdict read = verdict_from_json(to_json(verdict));
+  ASSERT_TRUE(read.flight);
+  EXPECT_EQ(to_json(read), to_json(verdict));
+  EXPECT_EQ(read.flight->magnetometer, 1);
+  EXPECT_TRUE(read.flight->simulated);
+  EXPECT_EQ(read.flight->declination, -0.19);
+  EXPECT_EQ(read.flight->window_end, 76.1);
+  EXPECT_EQ(read.metrics.at(0).unit, "m/s");
+  verdict.flight->magnetometer.reset();
+  EXPECT_FALSE(verdict_from_json(to_json(verdict)).flight->magnetometer);
+}
+
 TEST(NumberTextTest, ShowsFourDigitsAndDegrees) {
   EXPECT_EQ(with_unit(0.0431234, "m"), "0.04312 m");
   EXPECT_EQ(with_unit(3.14159265358979 / 4.0, "rad"), "45 deg");
