@@ -10,19 +10,15 @@
 namespace ironbird::scenarios {
 namespace {
 
+using by_hand::f64;
+using by_hand::pad;
 using by_hand::u16;
 using by_hand::u32;
 using by_hand::u64;
 using by_hand::u8;
 
-std::string f64(double value) {
-  return u64(std::bit_cast<std::uint64_t>(value));
-}
 std::string f32(float value) {
   return u32(std::bit_cast<std::uint32_t>(value));
-}
-std::string pad(int count) {
-  return std::string(static_cast<std::size_t>(count), '\0');
 }
 
 const std::string kHeader("\0\1\0\0", 4);
