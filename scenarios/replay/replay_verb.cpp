@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,6 +19,7 @@
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/config/config_error.hpp"
+#include "scenarios/config/degrees.hpp"
 #include "scenarios/config/file_search.hpp"
 #include "scenarios/replay/magnetic_field.hpp"
 #include "scenarios/replay/px4_flight.hpp"
@@ -34,7 +34,6 @@ namespace {
 
 using hil_bridge::Time;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr const char* kUsualScenario = "scenarios/replay/recorded_flight.toml";
 constexpr int kUnnamed = -1;
 
