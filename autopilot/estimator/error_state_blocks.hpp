@@ -4,8 +4,8 @@
 
 namespace ironbird::autopilot {
 
-// Where the blocks of ErrorState begin: d for the error of the state that the second letter stands for. For the
-// sources of the filter.
+// Where the blocks of ErrorState begin: d for the error of the state that the second letter stands for. For
+// the sources of the filter.
 
 inline constexpr int kDp = ErrorState::kPosition;
 inline constexpr int kDdown = ErrorState::kPosition + 2;
