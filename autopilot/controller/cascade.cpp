@@ -9,8 +9,8 @@ namespace ironbird::autopilot {
 
 namespace {
 
-constexpr double kSmallestCosine = 0.5;  // of the tilt, where thrust makes up for it: 60 degrees
-constexpr double kSmallestLift = 0.1;    // share of gravity, so that an acceleration always has an attitude
+constexpr double kSmallestTiltCosine = 0.5;  // of the tilt, where thrust makes up for it: 60 degrees
+constexpr double kSmallestLift = 0.1;  // share of gravity, so that an acceleration always has an attitude
 
 double limited(double value, double limit) {
   return std::clamp(value, -limit, limit);
@@ -244,7 +244,8 @@ FcuCommand Cascade::enter(const AccelerationHeadingRate& s) {
   const double magnitude = std::sqrt(a_V.x() * a_V.x() + a_V.y() * a_V.y() + lift * lift);
   const double roll = std::asin(a_V.y() / magnitude);
   const double pitch = std::atan2(-a_V.x(), lift);
-  const double upright = std::max(std::cos(estimate_->roll) * std::cos(estimate_->pitch), kSmallestCosine);
+  const double upright =
+      std::max(std::cos(estimate_->roll) * std::cos(estimate_->pitch), kSmallestTiltCosine);
   if (step_.thrust_in_newtons) {
     return enter(AngleHeadingRateThrust{roll, pitch, s.heading_rate, params_.mass * lift / upright});
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "autopilot/math/angles.hpp"
@@ -38,12 +39,27 @@ double quantile(const std::array<double, 512>& sorted, int count, double fractio
   return sorted[below] + (rank - below) * (sorted[above] - sorted[below]);
 }
 
+/// The shortest turn of the direction of `from` into that of `to`; about any axis across them where they are
+/// opposite.
+Quaternion shortest_turn(const Vector3& from, const Vector3& to) {
+  constexpr double kOpposite = -1.0 + 1.0e-12;
+  const Vector3 start = from.normalized();
+  const Vector3 end = to.normalized();
+  const double cosine = end.dot(start);
+  if (cosine < kOpposite) return Quaternion(Eigen::AngleAxisd(std::numbers::pi, start.unitOrthogonal()));
+  const double twice_w = std::sqrt((1.0 + cosine) * 2.0);
+  Quaternion turn;
+  turn.w() = 0.5 * twice_w;
+  turn.vec() = start.cross(end) * (1.0 / twice_w);
+  return turn;
+}
+
 }  // namespace
 
 AttitudeFromVectors attitude_from_vectors(const Vector3& f_B, const Vector3& a_N, const Vector3& m_B,
                                           double declination, double gravity) {
   const Vector3 up_N = (a_N - gravity * Vector3::UnitZ()).normalized();  // direction of the specific force
-  const Quaternion q_any = Quaternion::FromTwoVectors(f_B, up_N);
+  const Quaternion q_any = shortest_turn(f_B, up_N);
   // What is left is a turn by alpha about up_N that brings the field into the plane of magnetic north.
   const Vector3 m_N = q_any * m_B.normalized();
   const Vector3 along = up_N * up_N.dot(m_N);

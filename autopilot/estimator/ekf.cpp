@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "autopilot/estimator/covariance.hpp"
+#include "autopilot/estimator/ekf_blocks.hpp"
 #include "autopilot/estimator/ekf_measurements.hpp"
 #include "autopilot/estimator/scalar_update.hpp"
 #include "autopilot/math/angles.hpp"
@@ -15,14 +16,6 @@ namespace ironbird::autopilot {
 namespace {
 
 using Update = ScalarUpdate<EkfState::kSize>;
-
-constexpr int kP = EkfState::kPosition;
-constexpr int kDown = EkfState::kPosition + 2;
-constexpr int kV = EkfState::kVelocity;
-constexpr int kT = EkfState::kAttitude;
-constexpr int kPitch = EkfState::kAttitude + 1;
-constexpr int kHeading = EkfState::kHeading;
-constexpr int kB = EkfState::kGyroBias;
 
 }  // namespace
 

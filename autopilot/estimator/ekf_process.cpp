@@ -1,17 +1,9 @@
 #include "autopilot/estimator/ekf_process.hpp"
 
 #include "autopilot/estimator/covariance.hpp"
+#include "autopilot/estimator/ekf_blocks.hpp"
 
 namespace ironbird::autopilot {
-
-namespace {
-
-constexpr int kP = EkfState::kPosition;
-constexpr int kV = EkfState::kVelocity;
-constexpr int kT = EkfState::kAttitude;
-constexpr int kB = EkfState::kGyroBias;
-
-}  // namespace
 
 EkfState::Vector ekf_dynamics(const EkfState& x, const EulerTrig& at, const EkfInput& u) {
   const Matrix3 R_NB = rotation_NB(at);

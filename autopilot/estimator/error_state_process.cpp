@@ -5,22 +5,12 @@
 
 #include "autopilot/estimator/covariance.hpp"
 #include "autopilot/estimator/ekf_measurements.hpp"
+#include "autopilot/estimator/error_state_blocks.hpp"
 #include "autopilot/math/angles.hpp"
 
 namespace ironbird::autopilot {
 
-namespace {
-
-constexpr int kP = ErrorState::kPosition;
-constexpr int kV = ErrorState::kVelocity;
-constexpr int kT = ErrorState::kAttitude;
-constexpr int kG = ErrorState::kGyroBias;
-constexpr int kA = ErrorState::kAccelerometerBias;
-constexpr int kW = ErrorState::kGnssWalk;
-constexpr int kB = ErrorState::kBaroWalk;
-constexpr int kM = ErrorState::kMagBias;
-
-}  // namespace
+namespace {}  // namespace
 
 Vector3 corrected_rate(const ErrorState& x, const Vector3& w_NB_B) {
   const Vector3 u_B = w_NB_B - x.gyro_bias_B;
@@ -70,54 +60,54 @@ ErrorTransition error_transition(const ErrorState& x, const EkfInput& u, const M
 
 ErrorState::Matrix ErrorTransition::full() const {
   ErrorState::Matrix F = ErrorState::Matrix::Identity();
-  F.block<3, 3>(kP, kV) = h * Matrix3::Identity();
-  F.block<3, 3>(kP, kT) = pt;
-  F.block<3, 3>(kP, kA) = pa;
-  F.block<3, 3>(kV, kT) = vt;
-  F.block<3, 9>(kV, kG) = vg;
-  F.block<3, 3>(kV, kA) = va;
-  F.block<3, 3>(kT, kT) = tt;
-  F.block<3, 9>(kT, kG) = tg;
-  F.block<3, 3>(kW, kW) *= decay.gnss;
-  F(kB, kB) = decay.baro;
-  F.block<3, 3>(kM, kM) *= decay.mag;
+  F.block<3, 3>(kDp, kDv) = h * Matrix3::Identity();
+  F.block<3, 3>(kDp, kDq) = pt;
+  F.block<3, 3>(kDp, kDa) = pa;
+  F.block<3, 3>(kDv, kDq) = vt;
+  F.block<3, 9>(kDv, kDg) = vg;
+  F.block<3, 3>(kDv, kDa) = va;
+  F.block<3, 3>(kDq, kDq) = tt;
+  F.block<3, 9>(kDq, kDg) = tg;
+  F.block<3, 3>(kDw, kDw) *= decay.gnss;
+  F(kDb, kDb) = decay.baro;
+  F.block<3, 3>(kDm, kDm) *= decay.mag;
   return F;
 }
 
 void error_state_propagate_covariance(ErrorState::Matrix& P, const ErrorTransition& F,
                                       const ErrorState::Vector& noise) {
   constexpr int kAll = ErrorState::kSize;
-  constexpr int kMoving = kG;  // position, velocity, attitude; all behind them is constant or fades
+  constexpr int kMoving = kDg;  // position, velocity, attitude; all behind them is constant or fades
   const Matrix3 pt = F.pt.transpose(), pa = F.pa.transpose();
   const Matrix3 vt = F.vt.transpose(), va = F.va.transpose(), tt = F.tt.transpose();
   const Eigen::Matrix<double, 9, 3> vg = F.vg.transpose(), tg = F.tg.transpose();
 
   // N = P F^T, of the columns that move, block by block.
   Eigen::Matrix<double, kAll, kMoving> N;
-  N.middleCols<3>(kP) = P.middleCols<3>(kP) + F.h * P.middleCols<3>(kV) +
-                        P.middleCols<3>(kT).lazyProduct(pt) + P.middleCols<3>(kA).lazyProduct(pa);
-  N.middleCols<3>(kV) = P.middleCols<3>(kV) + P.middleCols<3>(kT).lazyProduct(vt) +
-                        P.middleCols<9>(kG).lazyProduct(vg) + P.middleCols<3>(kA).lazyProduct(va);
-  N.middleCols<3>(kT) = P.middleCols<3>(kT).lazyProduct(tt) + P.middleCols<9>(kG).lazyProduct(tg);
+  N.middleCols<3>(kDp) = P.middleCols<3>(kDp) + F.h * P.middleCols<3>(kDv) +
+                         P.middleCols<3>(kDq).lazyProduct(pt) + P.middleCols<3>(kDa).lazyProduct(pa);
+  N.middleCols<3>(kDv) = P.middleCols<3>(kDv) + P.middleCols<3>(kDq).lazyProduct(vt) +
+                         P.middleCols<9>(kDg).lazyProduct(vg) + P.middleCols<3>(kDa).lazyProduct(va);
+  N.middleCols<3>(kDq) = P.middleCols<3>(kDq).lazyProduct(tt) + P.middleCols<9>(kDg).lazyProduct(tg);
   const Eigen::Matrix<double, kMoving, kAll> M = N.transpose();
 
   // F P F^T, upper triangle: of what moves M F^T, beside it M and its fading.
-  P.block<3, 3>(kP, kP) = M.block<3, 3>(kP, kP) + F.h * M.block<3, 3>(kP, kV) +
-                          M.block<3, 3>(kP, kT).lazyProduct(pt) + M.block<3, 3>(kP, kA).lazyProduct(pa);
-  P.block<6, 3>(kP, kV) = M.block<6, 3>(kP, kV) + M.block<6, 3>(kP, kT).lazyProduct(vt) +
-                          M.block<6, 9>(kP, kG).lazyProduct(vg) + M.block<6, 3>(kP, kA).lazyProduct(va);
-  P.block<9, 3>(kP, kT) = M.block<9, 3>(kP, kT).lazyProduct(tt) + M.block<9, 9>(kP, kG).lazyProduct(tg);
-  P.block<kMoving, 12>(kP, kG) = M.block<kMoving, 12>(kP, kG);
-  P.block<kMoving, 3>(kP, kW) = F.decay.gnss * M.block<kMoving, 3>(kP, kW);
-  P.block<kMoving, 1>(kP, kB) = F.decay.baro * M.col(kB);
-  P.block<kMoving, 3>(kP, kM) = F.decay.mag * M.block<kMoving, 3>(kP, kM);
+  P.block<3, 3>(kDp, kDp) = M.block<3, 3>(kDp, kDp) + F.h * M.block<3, 3>(kDp, kDv) +
+                            M.block<3, 3>(kDp, kDq).lazyProduct(pt) + M.block<3, 3>(kDp, kDa).lazyProduct(pa);
+  P.block<6, 3>(kDp, kDv) = M.block<6, 3>(kDp, kDv) + M.block<6, 3>(kDp, kDq).lazyProduct(vt) +
+                            M.block<6, 9>(kDp, kDg).lazyProduct(vg) + M.block<6, 3>(kDp, kDa).lazyProduct(va);
+  P.block<9, 3>(kDp, kDq) = M.block<9, 3>(kDp, kDq).lazyProduct(tt) + M.block<9, 9>(kDp, kDg).lazyProduct(tg);
+  P.block<kMoving, 12>(kDp, kDg) = M.block<kMoving, 12>(kDp, kDg);
+  P.block<kMoving, 3>(kDp, kDw) = F.decay.gnss * M.block<kMoving, 3>(kDp, kDw);
+  P.block<kMoving, 1>(kDp, kDb) = F.decay.baro * M.col(kDb);
+  P.block<kMoving, 3>(kDp, kDm) = F.decay.mag * M.block<kMoving, 3>(kDp, kDm);
   // Among the constants nothing changes; each walk fades in its rows, then in its columns.
-  P.block<3, kAll - kW>(kW, kW) *= F.decay.gnss;
-  P.block<1, kAll - kB>(kB, kB) *= F.decay.baro;
-  P.block<3, kAll - kM>(kM, kM) *= F.decay.mag;
-  P.block<kW + 3 - kMoving, 3>(kMoving, kW) *= F.decay.gnss;
-  P.block<kB + 1 - kMoving, 1>(kMoving, kB) *= F.decay.baro;
-  P.block<kAll - kMoving, 3>(kMoving, kM) *= F.decay.mag;
+  P.block<3, kAll - kDw>(kDw, kDw) *= F.decay.gnss;
+  P.block<1, kAll - kDb>(kDb, kDb) *= F.decay.baro;
+  P.block<3, kAll - kDm>(kDm, kDm) *= F.decay.mag;
+  P.block<kDw + 3 - kMoving, 3>(kMoving, kDw) *= F.decay.gnss;
+  P.block<kDb + 1 - kMoving, 1>(kMoving, kDb) *= F.decay.baro;
+  P.block<kAll - kMoving, 3>(kMoving, kDm) *= F.decay.mag;
   P.diagonal() += noise;
   mirror_upper(P);
 }

@@ -11,7 +11,7 @@ namespace ironbird::autopilot {
 
 namespace {
 
-constexpr double kSmallestCosine = 0.1;  // of the pitch, in the heading rate: about 84 degrees
+constexpr double kSmallestPitchCosine = 0.1;  // of the pitch, in the heading rate: about 84 degrees
 
 /// Heading rate of the estimate, rad/s: (w_y sin(roll) + w_z cos(roll)) / cos(pitch), with the last row of
 /// R_NB for the products of angles.
@@ -22,7 +22,7 @@ double turning(const StateEstimate& estimate) {
   const double cos_pitch_squared =
       sin_roll_cos_pitch * sin_roll_cos_pitch + cos_roll_cos_pitch * cos_roll_cos_pitch;
   return (estimate.w_NB_B.y() * sin_roll_cos_pitch + estimate.w_NB_B.z() * cos_roll_cos_pitch) /
-         std::max(cos_pitch_squared, kSmallestCosine * kSmallestCosine);
+         std::max(cos_pitch_squared, kSmallestPitchCosine * kSmallestPitchCosine);
 }
 
 }  // namespace

@@ -79,6 +79,17 @@ if(IRONBIRD_TESTS)
   endforeach()
 endif()
 
+# IRONBIRD_UNITY_FILES sources of a library or a test are compiled as one, because most of a compiler's time goes into the
+# headers and templates that they share. A name in an anonymous namespace is therefore unique within its target. Sources
+# with options or definitions of their own are compiled alone.
+function(ironbird_unite target)
+  if(IRONBIRD_UNITY_FILES GREATER 1)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${IRONBIRD_UNITY_FILES})
+    # GCC takes a source that is included for a header, in which a class may not have a member of an unnamed namespace's.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 # ironbird_library(NAME simulator_mujoco SOURCES a.cpp ... LINKS simulator mujoco::mujoco)
 #   makes the static library ironbird_NAME and its alias ironbird::NAME.
 function(ironbird_library)
@@ -90,6 +101,7 @@ function(ironbird_library)
   set_property(GLOBAL APPEND PROPERTY IRONBIRD_LIBRARIES ${target})
   target_link_libraries(${target} PUBLIC ironbird_options ${arg_LINKS})
   ironbird_reuse_headers(${target} libraries)
+  ironbird_unite(${target})
 endfunction()
 
 # Writes the package files by which a program outside this tree finds the libraries in the build folder:
@@ -103,13 +115,14 @@ endfunction()
 
 # ironbird_test(NAME estimator SOURCES ekf_test.cpp ... LINKS ironbird::autopilot [LABELS slow] [WHOLE])
 #   makes the program NAME_test and registers each of its cases with CTest under LABELS (default: unit). With WHOLE the
-#   program is registered as one CTest case, for suites of very many small cases. RUNNER is a command that runs the
-#   program, as one case: ci/with_vcan.
+#   program is registered as one CTest case, for cases that share what they flew. RUNNER is a command that runs the
+#   program, as one case: ci/with_vcan. With IRONBIRD_WHOLE_TESTS, where starting a program costs more than most cases,
+#   every program is registered whole, a long one in PARTS that run at the same time.
 function(ironbird_test)
   if(NOT IRONBIRD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(arg "WHOLE" "NAME;TIMEOUT" "SOURCES;LINKS;LABELS;RUNNER" ${ARGN})
+  cmake_parse_arguments(arg "WHOLE" "NAME;TIMEOUT;PARTS" "SOURCES;LINKS;LABELS;RUNNER" ${ARGN})
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()
@@ -135,13 +148,31 @@ function(ironbird_test)
   endif()
   target_compile_options(${target} PRIVATE ${${variant}_options})
   ironbird_reuse_headers(${target} tests VARIANT ${variant})
+  ironbird_unite(${target})
   if(arg_WHOLE OR arg_RUNNER)
     add_test(NAME ${target} COMMAND ${arg_RUNNER} $<TARGET_FILE:${target}> WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${target} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+  elseif(IRONBIRD_WHOLE_TESTS)
+    ironbird_test_in_parts(${target} "${arg_LABELS}" ${arg_TIMEOUT} "${arg_PARTS}")
   else()
     gtest_discover_tests(${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DISCOVERY_TIMEOUT ${discovery}
                          PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
   endif()
+endfunction()
+
+# The parts of one program, GoogleTest's shards; those of long programs begin first.
+function(ironbird_test_in_parts target labels timeout parts)
+  if(NOT parts)
+    add_test(NAME ${target} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${target} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout})
+    return()
+  endif()
+  foreach(part RANGE 1 ${parts})
+    math(EXPR index "${part} - 1")
+    add_test(NAME ${target}.${part} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${target}.${part} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout} COST ${parts}
+                         ENVIRONMENT "GTEST_TOTAL_SHARDS=${parts};GTEST_SHARD_INDEX=${index}")
+  endforeach()
 endfunction()
 
 # ironbird_benchmark(NAME plant SOURCES plant_benchmark.cpp LINKS ...) makes the program NAME_benchmark.

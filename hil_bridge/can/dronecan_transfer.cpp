@@ -12,7 +12,7 @@ constexpr std::uint8_t kToggle = 0x20;
 constexpr std::uint8_t kIdMask = 0x1F;
 constexpr std::size_t kCrcSize = 2;
 /// What padding can add to a payload: a frame of 33 bytes becomes one of 48.
-constexpr std::size_t kMostPadding = 15;
+constexpr std::size_t kMostFrameFill = 15;
 
 std::uint8_t tail_of(const CanFrame& frame) {
   return frame.data[frame.size - 1U];
@@ -112,7 +112,7 @@ TransferReceiver::TransferReceiver(std::uint8_t own_node, std::span<const Subscr
   for (const Subscription& subscription : subscriptions) {
     Channel& channel = channels_.emplace_back();
     channel.subscription = subscription;
-    channel.stride = subscription.capacity + kCrcSize + kMostPadding;
+    channel.stride = subscription.capacity + kCrcSize + kMostFrameFill;
     channel.sessions.resize(kGreatestNode + 1U);
     channel.bytes.resize(channel.stride * (kGreatestNode + 1U));
   }

@@ -9,17 +9,15 @@ namespace ironbird::hil_bridge::can {
 
 namespace {
 
-constexpr Time kStatusPeriod = std::chrono::seconds(1);
 constexpr Time kArmingPeriod = std::chrono::milliseconds(500);
 constexpr Time kAnswerTimeout = std::chrono::seconds(1);
 constexpr std::uint8_t kCommandPriority = 7;
 constexpr std::uint8_t kOtherPriority = 24;
-constexpr std::uint8_t kAllocationPriority = 30;
 
-constexpr std::array kHears = {subscription<NodeStatus>(), subscription<EscStatus>(),
-                               subscription<GetNodeInfoResponse>(), subscription<Allocation>()};
-constexpr std::array kSays = {NodeStatus::kType.key, RawCommand::kType.key, ArmingStatus::kType.key,
-                              GetNodeInfoRequest::kType.key, Allocation::kType.key};
+constexpr std::array kControllerHears = {subscription<NodeStatus>(), subscription<EscStatus>(),
+                                         subscription<GetNodeInfoResponse>(), subscription<Allocation>()};
+constexpr std::array kControllerSays = {NodeStatus::kType.key, RawCommand::kType.key, ArmingStatus::kType.key,
+                                        GetNodeInfoRequest::kType.key, Allocation::kType.key};
 
 const EscControllerParams& checked(const EscControllerParams& params) {
   simulator::check_bounds(params, "esc_controller");
@@ -30,7 +28,7 @@ const EscControllerParams& checked(const EscControllerParams& params) {
 
 EscController::EscController(const EscControllerParams& params, transport::FrameBus& bus, Time start)
     : bus_(bus),
-      port_(static_cast<std::uint8_t>(checked(params).node), kHears, kSays, params.fd),
+      port_(static_cast<std::uint8_t>(checked(params).node), kControllerHears, kControllerSays, params.fd),
       motors_(static_cast<std::size_t>(params.count)),
       start_(start),
       next_status_(start),

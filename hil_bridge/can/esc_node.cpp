@@ -10,16 +10,14 @@ namespace ironbird::hil_bridge::can {
 
 namespace {
 
-constexpr Time kStatusPeriod = std::chrono::seconds(1);
 constexpr std::uint8_t kReportPriority = 16;
 constexpr std::uint8_t kStatusPriority = 24;
-constexpr std::uint8_t kAllocationPriority = 30;
 
-constexpr std::array kHears = {
+constexpr std::array kNodeHears = {
     subscription<RawCommand>(),    subscription<ArmingStatus>(),         subscription<GetNodeInfoRequest>(),
     subscription<GetSetRequest>(), subscription<ExecuteOpcodeRequest>(), subscription<RestartNodeRequest>(),
     subscription<Allocation>()};
-constexpr std::array kSays = {NodeStatus::kType.key, EscStatus::kType.key, Allocation::kType.key};
+constexpr std::array kNodeSays = {NodeStatus::kType.key, EscStatus::kType.key, Allocation::kType.key};
 
 const EscNodeParams& checked(const EscNodeParams& params) {
   simulator::check_bounds(params, "esc_node");
@@ -51,7 +49,7 @@ Time next_after(Time due, Time period, Time now) {
 EscNode::EscNode(const EscNodeParams& params, Time start)
     : name_(checked(params).name),
       unique_id_(unique_id_of(params)),
-      port_(static_cast<std::uint8_t>(params.node), kHears, kSays, params.fd),
+      port_(static_cast<std::uint8_t>(params.node), kNodeHears, kNodeSays, params.fd),
       parameters_(defaults(params)),
       start_(start),
       next_status_(start),

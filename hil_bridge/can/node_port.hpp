@@ -12,6 +12,12 @@ namespace ironbird::hil_bridge::can {
 /// A transfer that is not out after this is given up.
 inline constexpr Time kSendLifetime = std::chrono::seconds(1);
 
+/// A node says how it is this often.
+inline constexpr Time kStatusPeriod = std::chrono::seconds(1);
+
+/// Of the messages by which nodes come by their numbers.
+inline constexpr std::uint8_t kAllocationPriority = 30;
+
 /// How one node sends and receives messages: its number, its transfer ids, its outbox, its receiver.
 class NodePort {
  public:

@@ -17,7 +17,7 @@ constexpr Time kShortestSpan = std::chrono::seconds(4);  // of samples that tell
 constexpr double kFewest = 8.0;                          // and how many it takes
 constexpr double kGreatestDrift = 5e-4;                  // s/s; crystals are better than 1e-4
 
-double seconds(Time time) {
+double in_seconds(Time time) {
   return std::chrono::duration<double>(time).count();
 }
 
@@ -76,8 +76,8 @@ void TimeSync::fit(Time fcu) {
   double earliest = 0.0;
   for (std::size_t k = 0; k < count_; ++k) {
     if (samples_[k].round_trip > state_.least_round_trip + kSlowerThanLeast) continue;
-    const double t = seconds(samples_[k].fcu - reference);
-    const double offset = seconds(samples_[k].offset - anchor_offset_);
+    const double t = in_seconds(samples_[k].fcu - reference);
+    const double offset = in_seconds(samples_[k].offset - anchor_offset_);
     n += 1.0;
     sum_t += t;
     sum_o += offset;
@@ -86,7 +86,7 @@ void TimeSync::fit(Time fcu) {
     earliest = std::min(earliest, t);
   }
   const double spread = n * sum_tt - sum_t * sum_t;
-  const bool tells_drift = n >= kFewest && -earliest >= seconds(kShortestSpan) && spread > 0.0;
+  const bool tells_drift = n >= kFewest && -earliest >= in_seconds(kShortestSpan) && spread > 0.0;
   const double drift =
       tells_drift ? std::clamp((n * sum_to - sum_t * sum_o) / spread, -kGreatestDrift, kGreatestDrift) : 0.0;
   const Time fitted = anchor_offset_ + from_seconds((sum_o - drift * sum_t) / n);
@@ -96,15 +96,16 @@ void TimeSync::fit(Time fcu) {
   drift_ = drift;
   error_ = fitted - present;
   const double fastest = kGreatestSlew - std::abs(drift);
-  catch_up_ = std::clamp(seconds(error_) / seconds(kCatchUp), -fastest, fastest);
+  catch_up_ = std::clamp(in_seconds(error_) / in_seconds(kCatchUp), -fastest, fastest);
   state_.drift = drift;
   state_.offset = present;
 }
 
 Time TimeSync::present_offset(Time fcu) const {
-  const double passed = seconds(fcu - anchor_);
+  const double passed = in_seconds(fcu - anchor_);
   // What was to be caught up is caught up once: the next exchange that is believed may be long in coming.
-  const double caught_up = std::min(std::abs(catch_up_) * std::max(passed, 0.0), std::abs(seconds(error_)));
+  const double caught_up =
+      std::min(std::abs(catch_up_) * std::max(passed, 0.0), std::abs(in_seconds(error_)));
   return anchor_offset_ + from_seconds(drift_ * passed + std::copysign(caught_up, catch_up_));
 }
 

@@ -8,7 +8,7 @@ namespace ironbird::hil_bridge::transport {
 
 namespace {
 
-constexpr std::size_t kEventQueue = 64;
+constexpr std::size_t kFaultEventQueue = 64;
 constexpr std::size_t kHead = 5;  // identifier and kind, before the data
 constexpr std::uint32_t kExtended = 1U << 31U;
 constexpr std::uint32_t kRemote = 1U << 30U;
@@ -50,7 +50,7 @@ BusFault::BusFault(FrameBus& bus, const LinkFaultConfig& config, std::uint64_t s
     : bus_(bus),
       outgoing_(config.outgoing, seed, "bus/outgoing"),
       incoming_(config.incoming, seed, "bus/incoming"),
-      events_(kEventQueue) {}
+      events_(kFaultEventQueue) {}
 
 void BusFault::advance(Time now) {
   now_ = now;

@@ -23,7 +23,7 @@ namespace ironbird::hil_bridge::transport {
 
 namespace {
 
-constexpr std::size_t kEventQueue = 256;
+constexpr std::size_t kSocketEventQueue = 256;
 
 Time read_clock(clockid_t clock) {
   timespec now{};
@@ -115,7 +115,7 @@ struct SocketCan::Arrival {
 };
 
 SocketCan::SocketCan(const SocketCanParams& params, Time epoch)
-    : params_(params), epoch_(epoch), events_(kEventQueue) {
+    : params_(params), epoch_(epoch), events_(kSocketEventQueue) {
   simulator::check_bounds(params_, "socket_can");
   filters_.reserve(kMostFilters);
   try {

@@ -7,7 +7,7 @@ namespace ironbird::hil_bridge::virtual_fcu {
 
 namespace {
 
-constexpr float kFourPiSquared = 4.0F * std::numbers::pi_v<float> * std::numbers::pi_v<float>;
+constexpr float kFourPiSquaredF = 4.0F * std::numbers::pi_v<float> * std::numbers::pi_v<float>;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ MotorModel MotorModel::from(const ParameterStore& parameters) {
 
 float MotorModel::load_voltage(float density) const {
   const float d5 = diameter * diameter * diameter * diameter * diameter;
-  return resistance * density * d5 * torque_coefficient / (kFourPiSquared * back_emf);
+  return resistance * density * d5 * torque_coefficient / (kFourPiSquaredF * back_emf);
 }
 
 float MotorModel::speed(float voltage, float density) const {
@@ -34,7 +34,7 @@ float MotorModel::speed(float voltage, float density) const {
 
 float MotorModel::thrust(float speed, float density) const {
   const float d4 = diameter * diameter * diameter * diameter;
-  return density * d4 * thrust_coefficient * speed * speed / kFourPiSquared;
+  return density * d4 * thrust_coefficient * speed * speed / kFourPiSquaredF;
 }
 
 float maximum_thrust(const ParameterStore& parameters, float density) {

@@ -59,7 +59,7 @@ std::string about_extras(const CLI::App& app) {
 }
 
 /// Reads the command line. @return the exit code when nothing is left to do
-std::optional<int> read(CLI::App& app, int argc, char** argv) {
+std::optional<int> parsed(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
     return std::nullopt;
@@ -93,7 +93,7 @@ int run_verb_of(CLI::App& app, int argc, char** argv, const autopilot::Modules& 
     return kExitUsage;
   }
   check_verb_name(argv[1], names);
-  if (const std::optional<int> code = read(app, argc, argv)) return *code;
+  if (const std::optional<int> code = parsed(app, argc, argv)) return *code;
   return chosen(modules);
 }
 

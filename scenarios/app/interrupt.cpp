@@ -7,10 +7,10 @@ namespace ironbird::scenarios {
 namespace {
 
 // A signal handler can reach nothing but a global.
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t signal_heard = 0;
 
 void note(int) {
-  interrupted = 1;
+  signal_heard = 1;
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ void note_interrupts() {
 }
 
 bool interrupt_requested() {
-  return interrupted != 0;
+  return signal_heard != 0;
 }
 
 }  // namespace ironbird::scenarios

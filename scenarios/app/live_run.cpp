@@ -32,7 +32,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kShowPeriod{50};
 constexpr std::string_view kWord = "fly";
-constexpr std::string_view kUdp = "udp:";
 
 bool at_terminal() {
   return isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;

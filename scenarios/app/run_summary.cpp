@@ -21,8 +21,8 @@ namespace ironbird::scenarios {
 namespace {
 
 /// The gravest first.
-constexpr std::array<int, 7> kGravity = {kExitInterrupted, kExitInternal,     kExitUsage, kExitHardware,
-                                         kExitFail,        kExitInconclusive, kExitPass};
+constexpr std::array<int, 7> kByGravity = {kExitInterrupted, kExitInternal,     kExitUsage, kExitHardware,
+                                           kExitFail,        kExitInconclusive, kExitPass};
 
 /// The figures that are shown of several runs.
 constexpr std::array<std::string_view, 8> kSummarised = {
@@ -87,7 +87,7 @@ std::string statistics(const std::string& scenario, const Runs& runs) {
 }  // namespace
 
 int exit_code_of(const std::vector<RunResult>& results) {
-  for (const int code : kGravity) {
+  for (const int code : kByGravity) {
     if (std::any_of(results.begin(), results.end(), [&](const RunResult& r) { return r.exit_code == code; }))
       return code;
   }
@@ -109,22 +109,21 @@ std::string summary_text(const std::vector<RunResult>& results) {
 }
 
 std::string summary_json(const std::vector<RunResult>& results) {
-  using Json = nlohmann::ordered_json;
-  Json all = Json::array();
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const RunResult& result : results) {
     if (result.verdict) {
-      all.push_back(Json::parse(to_json(*result.verdict)));
+      all.push_back(nlohmann::ordered_json::parse(to_json(*result.verdict)));
       if (!result.error.empty()) all.back()["error"] = result.error;
       continue;
     }
-    Json run = {{"scenario", result.name.scenario}};
+    nlohmann::ordered_json run = {{"scenario", result.name.scenario}};
     if (result.name.seed) run["seed"] = *result.name.seed;
     run["folder"] = result.name.folder.string();
     run["exit_code"] = result.exit_code;
     run["error"] = result.error;
     all.push_back(std::move(run));
   }
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 void write_junit_file(const std::vector<RunResult>& results, const std::filesystem::path& file) {

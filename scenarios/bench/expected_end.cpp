@@ -21,20 +21,20 @@ namespace ironbird::scenarios {
 namespace {
 
 using autopilot::Vector3;
-using Moment = std::optional<double>;  // s; nothing: cannot be told
+using Instant = std::optional<double>;  // s; nothing: cannot be told
 
 constexpr double kSpinUp = 0.5;          // s, from the request to the first movement
 constexpr double kLargestShare = 0.95;   // of a run that is not over
 constexpr std::size_t kMostLegs = 1000;  // of a route that goes on for ever
 
 /// The earlier of two moments that can be told.
-Moment earlier(Moment a, Moment b) {
+Instant earlier(Instant a, Instant b) {
   if (!a || !b) return a ? a : b;
   return std::min(*a, *b);
 }
 
-Moment later_by(Moment moment, double delay) {
-  return moment ? Moment(*moment + delay) : moment;
+Instant later_by(Instant moment, double delay) {
+  return moment ? Instant(*moment + delay) : moment;
 }
 
 class Forecast {
@@ -47,12 +47,12 @@ class Forecast {
     known_.clear();  // what was asked for meanwhile knew neither
   }
 
-  Moment when(const std::string& event) {
+  Instant when(const std::string& event) {
     const std::string name = event.substr(event.find(':') + 1);
     // Found once each: many events may wait for one. One that waits for itself finds nothing.
     const auto [known, is_new] = known_.try_emplace(name);
     if (!is_new) return known->second;
-    const Moment moment = look(name);
+    const Instant moment = look(name);
     return known_[name] = moment;
   }
 
@@ -96,12 +96,12 @@ class Forecast {
                                           {true, home.latitude, home.longitude, home.altitude});
   }
 
-  Moment hold() const {
+  Instant hold() const {
     const double climb = controller_.take_off_height - controller_.take_off_height_threshold;
     return later_by(take_off_, kSpinUp + climb / controller_.take_off_speed);
   }
 
-  Moment offboard() const { return later_by(hold(), controller_.take_off_hold_time); }
+  Instant offboard() const { return later_by(hold(), controller_.take_off_hold_time); }
 
   void add_route() {
     const auto& waypoints = scenario_.waypoints;
@@ -123,16 +123,16 @@ class Forecast {
 
   /// The first of the scenario's events for which `is_meant` holds.
   template <class IsMeant>
-  Moment first_event(IsMeant is_meant) {
-    Moment first;
+  Instant first_event(IsMeant is_meant) {
+    Instant first;
     for (const EventConfig& event : scenario_.events) {
       if (!is_meant(event)) continue;
-      first = earlier(first, later_by(event.after.empty() ? Moment(0.0) : when(event.after), event.at));
+      first = earlier(first, later_by(event.after.empty() ? Instant(0.0) : when(event.after), event.at));
     }
     return first;
   }
 
-  Moment first_wish(OperatorWish wish) {
+  Instant first_wish(OperatorWish wish) {
     return first_event([wish](const EventConfig& event) { return event.request == wish; });
   }
 
@@ -152,8 +152,8 @@ class Forecast {
       if (!first || stop.time < first->time) first = stop;
     };
     if (lands_) consider(stops_.back());
-    if (const Moment asked = first_wish(OperatorWish::kLand)) consider(stop_before(*asked));
-    if (const Moment asked = first_wish(OperatorWish::kReturnToLaunch)) {
+    if (const Instant asked = first_wish(OperatorWish::kLand)) consider(stop_before(*asked));
+    if (const Instant asked = first_wish(OperatorWish::kReturnToLaunch)) {
       const Stop from = stop_before(*asked);
       const double height = std::max(planner_.return_height, -from.p_N.z());
       const Stop above = after(from, {from.p_N.x(), from.p_N.y(), -height}, from.heading, 0.0);
@@ -162,7 +162,7 @@ class Forecast {
     return first;
   }
 
-  Moment landed() {
+  Instant landed() {
     const std::optional<Stop> begin = landing();
     if (!begin) return std::nullopt;
     const double height = std::max(0.0, -begin->p_N.z());
@@ -170,14 +170,14 @@ class Forecast {
     return begin->time + (height - slow) / controller_.descent_speed + slow / controller_.landing_speed;
   }
 
-  Moment look(const std::string& name) {
+  Instant look(const std::string& name) {
     const auto is_named = [&](const EventConfig& event) { return describe_event(event) == name; };
-    if (const Moment own = first_event(is_named)) return own;
-    if (name == "armed") return scenario_.pilot.automatic ? Moment(scenario_.pilot.arm_at) : std::nullopt;
+    if (const Instant own = first_event(is_named)) return own;
+    if (name == "armed") return scenario_.pilot.automatic ? Instant(scenario_.pilot.arm_at) : std::nullopt;
     if (name == "take_off") return take_off_;
     if (name == "hold") return hold();
     if (name == "offboard") return stops_.empty() ? std::nullopt : offboard();
-    if (name == "landing") return landing() ? Moment(landing()->time) : std::nullopt;
+    if (name == "landing") return landing() ? Instant(landing()->time) : std::nullopt;
     if (name == "landed") return landed();
     if (name == "unarmed" || name == "disarmed") return later_by(landed(), PilotConfig::kDisarmDelay);
     for (std::size_t i = 1; i < stops_.size(); ++i) {
@@ -193,10 +193,10 @@ class Forecast {
   autopilot::MotionLimits limits_;
   autopilot::CascadedControllerParams controller_;
   autopilot::WaypointPlannerParams planner_;
-  Moment take_off_;
+  Instant take_off_;
   std::vector<Stop> stops_;  // where the route begins, and its waypoints
   bool lands_ = false;
-  std::map<std::string, Moment> known_;
+  std::map<std::string, Instant> known_;
 };
 
 }  // namespace
@@ -204,7 +204,7 @@ class Forecast {
 double expected_end(const LoadedScenario& loaded) {
   const Scenario& scenario = loaded.scenario;
   if (scenario.end_after.empty()) return scenario.duration;
-  const Moment end = later_by(Forecast(loaded).when(scenario.end_after), scenario.end_delay);
+  const Instant end = later_by(Forecast(loaded).when(scenario.end_after), scenario.end_delay);
   return end && std::isfinite(*end) ? std::min(*end, scenario.duration) : scenario.duration;
 }
 

@@ -11,6 +11,9 @@
 
 namespace ironbird::scenarios {
 
+/// How a line begins that is no device: `udp:HOST:PORT:OWN_PORT`.
+inline constexpr std::string_view kUdp = "udp:";
+
 /// Which flight-control unit is flown, and how it is reached.
 enum class FcuKind : std::uint8_t {
   kVirtual,        ///< the virtual one, by function call

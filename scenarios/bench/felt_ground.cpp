@@ -5,7 +5,7 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr double kLifted = 0.5;  // m
-constexpr autopilot::Time kRest = std::chrono::milliseconds(500);
+constexpr autopilot::Time kFeltRest = std::chrono::milliseconds(500);
 
 }  // namespace
 
@@ -24,7 +24,7 @@ std::optional<std::string_view> FeltGround::observe(const autopilot::Signals& si
       !flies && (felt_since_ || signals.flight.cause == autopilot::PhaseCause::kRestsWithPilot);
   if (!memory.on_ground) felt_since_.reset();
   if (memory.on_ground && !felt_since_) felt_since_ = signals.estimate.stamp;
-  const bool felt = felt_since_ && signals.estimate.stamp - *felt_since_ >= kRest;
+  const bool felt = felt_since_ && signals.estimate.stamp - *felt_since_ >= kFeltRest;
   if (!felt && !rests) return std::nullopt;
   airborne_ = false;
   return "landed";

@@ -6,7 +6,7 @@ namespace ironbird::scenarios {
 
 namespace {
 
-constexpr simulator::Time kRest{500'000'000};
+constexpr simulator::Time kContactRest{500'000'000};
 // A hop of the landing gear is no flight.
 constexpr simulator::Time kFlight{300'000'000};
 // A landing gear that chatters on the ground has not left it.
@@ -42,7 +42,7 @@ std::optional<std::string_view> GroundWatch::on_ground(const simulator::Truth& t
   const double struck_with = std::exchange(sink_, 0.0);
   if (!airborne_) return std::nullopt;
   const bool strikes = struck_with > kHardestLanding;
-  if (!strikes && truth.stamp - contact_since_ < kRest) return std::nullopt;
+  if (!strikes && truth.stamp - contact_since_ < kContactRest) return std::nullopt;
   airborne_ = false;
   crashed_ = strikes || uprightness(truth) < kLeastUpright;
   return crashed_ ? "crashed" : "landed";

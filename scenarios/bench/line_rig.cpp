@@ -23,7 +23,6 @@ namespace {
 using hil_bridge::Time;
 using namespace hil_bridge::transport;
 
-constexpr std::string_view kUdp = "udp:";
 // Of the run's time. The unit's own time-out has long given the vehicle to the pilot.
 constexpr Time kLongestPause = std::chrono::milliseconds(500);
 

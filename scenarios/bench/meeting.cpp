@@ -1,11 +1,12 @@
 #include "scenarios/bench/meeting.hpp"
 
+#include "scenarios/bench/fcu_config.hpp"
+
 namespace ironbird::scenarios {
 
 namespace {
 
 constexpr std::size_t kToldAtMost = 5;
-constexpr std::string_view kUdp = "udp:";
 
 std::string option_for(const std::string& line) {
   return line.starts_with(kUdp) ? "--udp " + line.substr(kUdp.size()) : "--port " + line;

@@ -29,7 +29,7 @@ void add_names(const fs::path& folder, const std::string& prefix, bool (*is_one)
   }
 }
 
-std::string joined(const std::set<std::string>& names) {
+std::string joined_names(const std::set<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "there are: " : ", ") + name;
   return text.empty() ? "there are none near" : text;
@@ -51,14 +51,14 @@ std::string vehicles_in(const std::vector<fs::path>& folders) {
   std::set<std::string> names;
   add_names(folders.front(), "", is_vehicle, names);
   for (const fs::path& folder : folders) add_names(folder / "models", "models/", is_vehicle, names);
-  return joined(names);
+  return joined_names(names);
 }
 
 std::string fields_in(const std::vector<fs::path>& folders) {
   std::set<std::string> names;
   for (const fs::path& folder : folders)
     add_names(folder / "models/fields", "models/fields/", is_field, names);
-  return joined(names);
+  return joined_names(names);
 }
 
 }  // namespace ironbird::scenarios

@@ -59,7 +59,7 @@ std::int64_t meant(const Span& span) {
   return std::llround(is_near ? microseconds * kMicrosecond : span.length);
 }
 
-std::chrono::nanoseconds rounded(double nanoseconds) {
+std::chrono::nanoseconds to_nanosecond(double nanoseconds) {
   return std::chrono::nanoseconds(std::llround(nanoseconds));
 }
 
@@ -113,7 +113,7 @@ std::vector<std::string> whole_tick_findings(const LoadedScenario& loaded) {
   for (const Span& span : in_ticks(loaded.scenario)) {
     const bool others_fault = !loaded.gives(span.path) || tick_is_to_blame(loaded, span.path);
     if (others_fault || is_whole(span, tick)) continue;
-    findings.push_back(span.path + " = " + in_milliseconds(rounded(span.length)) +
+    findings.push_back(span.path + " = " + in_milliseconds(to_nanosecond(span.length)) +
                        ": must be a whole number of ticks of " + in_milliseconds(loaded.scenario.fcu.tick) +
                        "; take " + whole_lengths(span, tick));
   }
@@ -134,7 +134,7 @@ std::vector<std::string> tick_findings(const LoadedScenario& loaded) {
   const auto place = loaded.places.find(first.path);
   const auto remedy = fitting_tick(all, tick);
   return {std::string(kTick) + " = " + in_milliseconds(loaded.scenario.fcu.tick) + ": must divide " +
-          in_milliseconds(rounded(first.length)) + " of " + first.path +
+          in_milliseconds(to_nanosecond(first.length)) + " of " + first.path +
           (place == loaded.places.end() ? "" : " (" + place->second + ")") +
           (misfits.size() > 1 ? ", and " + std::to_string(misfits.size() - 1) + " more" : "") +
           (remedy ? "; take " + in_milliseconds(std::chrono::nanoseconds(*remedy)) : "")};

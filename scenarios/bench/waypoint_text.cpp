@@ -2,13 +2,13 @@
 
 #include <array>
 #include <charconv>
-#include <numbers>
+
+#include "scenarios/config/degrees.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr int kCentimetre = 7;  // decimals of a degree of latitude
 
 std::string rounded(double value, int decimals = 2) {

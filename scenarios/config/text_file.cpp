@@ -42,7 +42,7 @@ std::string meant_instead_of(const fs::path& file) {
 }
 
 /// Why the file cannot be taken, or nothing.
-std::string complaint(const fs::path& file) {
+std::string why_unreadable(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) {
@@ -63,7 +63,7 @@ std::string complaint(const fs::path& file) {
 }  // namespace
 
 std::string read_config_text(const fs::path& file, const std::string& asked_by) {
-  const std::string wrong = complaint(file);
+  const std::string wrong = why_unreadable(file);
   if (!wrong.empty()) throw ConfigError(asked_by + file.string() + ": " + wrong);
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;

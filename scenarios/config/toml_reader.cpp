@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <sstream>
 
+#include "scenarios/config/degrees.hpp"
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/config/quantity.hpp"
 #include "scenarios/config/shortest.hpp"
@@ -64,7 +64,6 @@ std::string with_unit(const std::string& text, std::string_view unit) {
 
 /// The bounds of an angle again, as people know them.
 std::string in_degrees(const Allowed& allowed) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   if (allowed.unit != "rad") return "";
   const auto degrees = [](double angle) { return shortest(std::round(angle * kDegrees * 1e6) / 1e6); };
   return " (" + degrees(allowed.lower) + " and " + degrees(allowed.upper) + " deg)";

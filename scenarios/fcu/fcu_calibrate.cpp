@@ -18,7 +18,7 @@ using hil_bridge::CalibrationClient;
 using hil_bridge::CalibrationKind;
 using hil_bridge::CalibrationState;
 
-constexpr double kPatience = 60.0;  // s; the calibration has its own
+constexpr double kCalibrationPatience = 60.0;  // s; the calibration has its own
 
 struct CalibrateArguments {
   UnitAddress address;
@@ -61,7 +61,7 @@ int calibrate(const CalibrateArguments& arguments) {
                std::string(kind.wants).c_str());
   CalibrationClient calibration(kind, unit.connection().parameters());
   unit.listen([&](const hil_bridge::Arrival& arrival) { calibration.take(arrival.message, unit.now()); });
-  unit.until(kPatience, [&] {
+  unit.until(kCalibrationPatience, [&] {
     calibration.advance(unit.now(), [&](const auto& message) { unit.fcu().send(message); });
     return calibration.over();
   });

@@ -12,7 +12,7 @@ namespace ironbird::scenarios {
 
 namespace {
 
-constexpr double kListening = 2.2;  // s; rates are counted over a whole second
+constexpr double kInfoListening = 2.2;  // s; rates are counted over a whole second
 
 struct InfoArguments {
   UnitAddress address;
@@ -23,7 +23,7 @@ int info(const InfoArguments& arguments) {
   note_interrupts();
   UnitOnLine unit(arguments.address, UnitOnLine::Talk::kQuestions);
   unit.meet();
-  unit.until(kListening, [] { return false; });
+  unit.until(kInfoListening, [] { return false; });
   if (interrupt_requested()) return kExitInterrupted;
   const auto report = arguments.json ? unit_report_json : unit_report;
   std::fputs(report(unit.fcu(), unit.name(), unit.now()).c_str(), stdout);

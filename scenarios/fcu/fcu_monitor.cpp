@@ -16,9 +16,9 @@ namespace ironbird::scenarios {
 
 namespace {
 
-constexpr double kRedraw = 0.1;       // s
-constexpr double kPlainPeriod = 1.0;  // s
-constexpr double kMeasured = 60.0;    // s
+constexpr double kRedraw = 0.1;      // s
+constexpr double kLinePeriod = 1.0;  // s
+constexpr double kMeasured = 60.0;   // s
 
 struct MonitorArguments {
   UnitAddress address;
@@ -55,7 +55,7 @@ class Teller {
   explicit Teller(bool json)
       : json_(json), terminal_(Terminal::of_standard_output()), screen_(terminal_.colour) {}
 
-  double period() const { return redraws() ? kRedraw : kPlainPeriod; }
+  double period() const { return redraws() ? kRedraw : kLinePeriod; }
   void tell(const Monitored& unit) {
     if (redraws()) return screen_.draw(unit);
     const std::string text = json_ ? monitor_json(unit) : monitor_line(unit) + "\n";

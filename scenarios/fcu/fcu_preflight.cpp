@@ -16,7 +16,7 @@ namespace ironbird::scenarios {
 
 namespace {
 
-constexpr double kListening =
+constexpr double kPreflightListening =
     3.2;  // s; a battery speaks ten times a second, rates are counted over a whole one
 
 struct PreflightArguments {
@@ -43,7 +43,7 @@ int look(const PreflightArguments& arguments, const autopilot::Modules& modules)
   unit.listen([&view](const hil_bridge::Arrival& arrival) { view.take(arrival); });
   const hil_bridge::Time began = unit.now();
   unit.meet();
-  unit.until(kListening, [] { return false; });
+  unit.until(kPreflightListening, [] { return false; });
   if (interrupt_requested()) return kExitInterrupted;
   const Monitored seen{unit.fcu(), view, unit.name(), unit.line_up(), unit.now(), began};
   const std::vector<PreflightItem> items = preflight(seen, wishes);

@@ -44,7 +44,7 @@ using hil_bridge::transport::UdpSocket;
 
 // So far behind the clock there is no catching up: the clock is set anew and the loss told.
 constexpr Time kGivenUp = std::chrono::milliseconds(200);
-constexpr Time kTellPeriod = std::chrono::seconds(1);
+constexpr Time kServeTellPeriod = std::chrono::seconds(1);
 constexpr int kLeastRest = 10;  // parts of a period, of which one is rest
 
 struct ServeArguments {
@@ -208,7 +208,7 @@ int serve(const ServeArguments& arguments, const autopilot::Modules& modules) {
     unit.tick();
     line.advance(unit.now());
     tell_events(bus.get(), arguments.can);
-    if (interactive && unit.now() - told >= kTellPeriod) {
+    if (interactive && unit.now() - told >= kServeTellPeriod) {
       tell(unit, clock.lost());
       told = unit.now();
     }

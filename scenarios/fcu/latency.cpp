@@ -21,9 +21,8 @@ using hil_bridge::Time;
 using hil_bridge::transport::machine_time;
 namespace rosflight = hil_bridge::rosflight;
 
-constexpr std::size_t kRoom = 4'000'000;  // an hour of wakings
-constexpr int kPatience = 100;            // ms
-constexpr int kAskedOf = 4;               // every so many IMU frames: 100 questions a second of 400 Hz
+constexpr int kLookPatience = 100;  // ms
+constexpr int kAskedOf = 4;         // every so many IMU frames: 100 questions a second of 400 Hz
 // Upper ends of the bins, us.
 constexpr std::array kBins = {10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000};
 
@@ -69,7 +68,7 @@ class Asker {
 
   void look() {
     pollfd state{unit_.descriptor(), POLLIN, 0};
-    poll(&state, 1, kPatience);
+    poll(&state, 1, kLookPatience);
     const Time woken = machine_time();
     asked_ = false;
     unit_.step();
@@ -132,7 +131,7 @@ std::string latency_json(const LatencyReport& report) {
 }
 
 LatencyReport latency_of_line(const UnitAddress& address, double seconds) {
-  SharedTimes late(kRoom);
+  SharedTimes late(kHourOfWakings);
   UnitOnLine unit(address, UnitOnLine::Talk::kQuestions);
   unit.meet();
   const SideProcess sleeper([&] { measure_jitter(late); });

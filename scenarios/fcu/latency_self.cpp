@@ -31,8 +31,7 @@ using hil_bridge::transport::machine_time;
 using hil_bridge::transport::PseudoTerminal;
 namespace rosflight = hil_bridge::rosflight;
 
-constexpr std::size_t kRoom = 4'000'000;
-constexpr int kPatience = 100;  // ms
+constexpr int kCommandPatience = 100;  // ms
 constexpr int kAnyBaud = 921600;
 
 /// The unit's end of the line: notes when it began to write in this tick, and reads ahead until a motor
@@ -43,10 +42,10 @@ class StampedLine final : public ByteStream {
 
   /// Waits for a motor command. @return when it was there, or nothing in a tenth of a second
   std::optional<Time> await_command() {
-    const Time end = machine_time() + std::chrono::milliseconds(kPatience);
+    const Time end = machine_time() + std::chrono::milliseconds(kCommandPatience);
     while (machine_time() < end) {
       pollfd state{line_.descriptor(), POLLIN, 0};
-      if (poll(&state, 1, kPatience) <= 0) break;
+      if (poll(&state, 1, kCommandPatience) <= 0) break;
       const Time there = machine_time();
       if (read_ahead()) return there;
     }
@@ -113,7 +112,7 @@ class Answerer {
 
   void look() {
     pollfd state{port_.descriptor(), POLLIN, 0};
-    if (poll(&state, 1, kPatience) <= 0) return;
+    if (poll(&state, 1, kCommandPatience) <= 0) return;
     const Time woken = machine_time();
     fcu_.advance(woken);
     heard_.clear();
@@ -144,8 +143,8 @@ LatencyReport latency_of_self(const std::string& file, double seconds, const aut
   LoadedScenario loaded = load_scenario(file, {}, modules);
   loaded.scenario.pilot.automatic = false;
   PseudoTerminal terminal;
-  SharedTimes round_trips(kRoom);
-  SharedTimes late(kRoom);
+  SharedTimes round_trips(kHourOfWakings);
+  SharedTimes late(kHourOfWakings);
   Answerer answerer(terminal.device(), loaded, modules);
   const SideProcess unit([&] { serve(loaded.scenario, terminal, round_trips); });
   const SideProcess sleeper([&] { measure_jitter(late); });

@@ -8,26 +8,26 @@ namespace ironbird::scenarios {
 namespace {
 
 using namespace hil_bridge::rosflight;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// A message as its described members.
 template <class M>
-Json json_of(const M& message) {
-  Json json;
+OrderedJson json_of(const M& message) {
+  OrderedJson json;
   M::describe(message,
               [&](const char* name, const auto& member, const char*, const char*) { json[name] = member; });
   return json;
 }
 
 template <class M>
-void add(Json& json, const char* name, const Monitored& unit) {
+void add(OrderedJson& json, const char* name, const Monitored& unit) {
   if (const M* message = unit.view.latest<M>()) json[name] = json_of(*message);
 }
 
-Json link_of(const Monitored& unit) {
+OrderedJson link_of(const Monitored& unit) {
   const hil_bridge::LinkHealth health = unit.fcu.health(unit.now);
   const hil_bridge::TimeSyncState& time = unit.fcu.connection().time_sync();
-  Json json;
+  OrderedJson json;
   json["up"] = unit.line_up;
   json["silent"] = !silence_of(unit).empty();
   json["frames_per_second"] = health.frame_rate;
@@ -43,7 +43,7 @@ Json link_of(const Monitored& unit) {
 }  // namespace
 
 std::string monitor_json(const Monitored& unit) {
-  Json json;
+  OrderedJson json;
   json["time_s"] = to_seconds(unit.now - unit.since);
   json["link"] = link_of(unit);
   json["firmware"] = unit.fcu.connection().version();
@@ -59,14 +59,14 @@ std::string monitor_json(const Monitored& unit) {
   add<RosflightBatteryStatus>(json, "battery", unit);
   add<RcChannels>(json, "rc", unit);
   json["radio"] = unit.fcu.connection().radio_alive(unit.now);
-  Json texts = Json::array();
+  OrderedJson texts = OrderedJson::array();
   for (const UnitText& text : unit.view.texts()) {
     texts.push_back(
         {{"time_s", to_seconds(text.when - unit.since)}, {"severity", text.severity}, {"text", text.text}});
   }
   json["texts"] = texts;
   // A unit may send bytes that are no text.
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace ironbird::scenarios

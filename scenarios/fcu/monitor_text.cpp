@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <numbers>
 #include <span>
 
 #include "autopilot/math/euler_zyx.hpp"
 #include "scenarios/bench/run_time.hpp"
+#include "scenarios/config/degrees.hpp"
 #include "scenarios/fcu/printed.hpp"
 #include "scenarios/fcu/unit_report.hpp"
 
@@ -17,8 +17,7 @@ namespace {
 using namespace hil_bridge::rosflight;
 using hil_bridge::Time;
 
-constexpr Time kSilence = std::chrono::milliseconds(500);
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr Time kShownSilence = std::chrono::milliseconds(500);
 constexpr std::size_t kMotorsShown = 8;
 constexpr std::size_t kChannelsShown = 8;
 constexpr std::uint8_t kErrorSeverity = 3;
@@ -35,11 +34,6 @@ autopilot::Vector3 angles_of(const AttitudeQuaternion& attitude) {
   return autopilot::euler_from_quaternion(q_NB.normalized());
 }
 
-template <class M>
-int rate_of(const Monitored& unit) {
-  return unit.fcu.statistics().rate(UnitView::kind<M>());
-}
-
 std::string values(const char* format, std::span<const float> numbers) {
   std::string text;
   for (const float number : numbers)
@@ -50,7 +44,7 @@ std::string values(const char* format, std::initializer_list<float> numbers) {
   return values(format, std::span(numbers.begin(), numbers.size()));
 }
 
-std::string milliseconds(Time time) {
+std::string milliseconds_text(Time time) {
   return printed("%.2f ms", 1e-6 * static_cast<double>(time.count()));
 }
 
@@ -69,10 +63,10 @@ Row link_row(const Monitored& unit) {
   const hil_bridge::TimeSyncState& time = unit.fcu.connection().time_sync();
   std::string text = printed("%4.0f frames/s  %5.1f kB/s  %.2f %% lost  ", health.frame_rate,
                              1e-3 * health.byte_rate, 100.0 * health.loss) +
-                     std::to_string(health.corrupted) + " corrupted  age " + milliseconds(health.age);
+                     std::to_string(health.corrupted) + " corrupted  age " + milliseconds_text(health.age);
   if (time.valid)
-    text +=
-        "  round trip " + milliseconds(time.round_trip) + ", least " + milliseconds(time.least_round_trip);
+    text += "  round trip " + milliseconds_text(time.round_trip) + ", least " +
+            milliseconds_text(time.least_round_trip);
   return {"link", text, health.loss > 0.01};
 }
 
@@ -164,7 +158,7 @@ std::vector<Row> rows_of(const Monitored& unit) {
 std::string silence_of(const Monitored& unit) {
   const Time age = unit.fcu.health(unit.now).age;
   const Time silent = age == Time::max() ? unit.now - unit.since : age;
-  if (unit.line_up && silent < kSilence) return {};
+  if (unit.line_up && silent < kShownSilence) return {};
   const std::string since = printed("SILENT for %.1f s", to_seconds(silent));
   return unit.line_up ? since + ": nothing comes from the unit; is it powered?"
                       : since + ": the line is down, and tried again until it is up";
@@ -201,7 +195,7 @@ std::string monitor_line(const Monitored& unit) {
   const hil_bridge::LinkHealth health = unit.fcu.health(unit.now);
   return text +
          printed("  %.0f frames/s, %.2f %% lost, round trip ", health.frame_rate, 100.0 * health.loss) +
-         milliseconds(health.round_trip);
+         milliseconds_text(health.round_trip);
 }
 
 }  // namespace ironbird::scenarios

@@ -19,6 +19,12 @@ struct Monitored {
   hil_bridge::Time since{};  ///< when the watching began
 };
 
+/// Messages of this kind in the last second.
+template <class M>
+int rate_of(const Monitored& unit) {
+  return unit.fcu.statistics().rate(UnitView::kind<M>());
+}
+
 /// Is nothing heard, and for how long? Words for it, or empty.
 std::string silence_of(const Monitored& unit);
 

@@ -20,9 +20,10 @@ using hil_bridge::Time;
 constexpr int kPasses = 3;             // a value may change others: a canned mixer rewrites 220
 constexpr double kSetPatience = 60.0;  // s, for a whole file over a bad line
 constexpr double kSettle = 0.5;        // s in which the unit says what else has changed
-constexpr Time kTellPeriod = std::chrono::seconds(2);
-constexpr Time kQuiet = std::chrono::seconds(1);    // without a report: worth a word
-constexpr Time kSilence = std::chrono::seconds(5);  // fifty reports: no line of which half arrives loses them
+constexpr Time kPushTellPeriod = std::chrono::seconds(2);
+constexpr Time kQuiet = std::chrono::seconds(1);  // without a report: worth a word
+constexpr Time kPushSilence =
+    std::chrono::seconds(5);  // fifty reports: no line of which half arrives loses them
 
 constexpr const char* kSilent = "the unit has fallen silent";
 constexpr const char* kArmed = "the unit was armed";
@@ -58,12 +59,12 @@ class Waiting {
     const bool armed = connection.armed(now);
     if (armed || connection.disarmed(now)) heard_ = now;
     if (armed && !armed_too) return kArmed;
-    return now - heard_ > kSilence ? kSilent : "";
+    return now - heard_ > kPushSilence ? kSilent : "";
   }
 
   void tell(const Progress& progress) {
     const Time now = unit_.now();
-    if (now - told_ < kTellPeriod) return;
+    if (now - told_ < kPushTellPeriod) return;
     told_ = now;
     const bool quiet = now - heard_ > kQuiet;
     std::fprintf(stderr, "%s%s\n", progress().c_str(), quiet ? "; the unit is silent, waiting for it" : "");

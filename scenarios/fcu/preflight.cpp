@@ -65,11 +65,6 @@ std::vector<ParameterDifference> different(const Monitored& unit, const Prefligh
   return hil_bridge::not_as_wanted(*wishes.parameters, unit.fcu.connection().parameters().known());
 }
 
-template <class M>
-int rate_of(const Monitored& unit) {
-  return unit.fcu.statistics().rate(UnitView::kind<M>());
-}
-
 /// The list while it grows.
 class List {
  public:

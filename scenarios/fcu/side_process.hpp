@@ -44,6 +44,9 @@ class SideProcess {
   pid_t process_ = -1;
 };
 
+/// Room for an hour of measure_jitter(), and more.
+inline constexpr std::size_t kHourOfWakings = 4'000'000;
+
 /// Sleeps a millisecond at a time and notes by how much it is late each time, for ever.
 void measure_jitter(SharedTimes& times);
 

@@ -1,10 +1,10 @@
 #include "scenarios/replay/comparison.hpp"
+#include "scenarios/config/degrees.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "autopilot/math/angles.hpp"
@@ -20,8 +20,6 @@ using autopilot::Quaternion;
 using autopilot::StateEstimate;
 using autopilot::Vector3;
 using hil_bridge::Time;
-
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 Vector3 no_numbers() {
   return Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -135,9 +133,9 @@ std::vector<Metric> Comparison::results() const {
                                      east_.rms(),
                                      down_.deviation(),
                                      velocity_.rms(),
-                                     kDegreesPerRadian * roll_.rms(),
-                                     kDegreesPerRadian * pitch_.rms(),
-                                     kDegreesPerRadian * heading_.rms(),
+                                     kDegrees * roll_.rms(),
+                                     kDegrees * pitch_.rms(),
+                                     kDegrees * heading_.rms(),
                                      share};
   std::vector<Metric> all = difference_metrics(recorded_.name);
   for (std::size_t k = 0; k < values.size(); ++k) all.at(k).value = values[k];

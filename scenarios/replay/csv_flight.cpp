@@ -1,4 +1,5 @@
 #include "scenarios/replay/csv_flight.hpp"
+#include "scenarios/config/degrees.hpp"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,6 @@ using hil_bridge::Arrival;
 using hil_bridge::Time;
 namespace rosflight = hil_bridge::rosflight;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kLongestFlight = 864'000.0;  // s
 constexpr Time kStatusPeriod = std::chrono::milliseconds(100);
 

@@ -1,8 +1,8 @@
 #include "scenarios/replay/made_sensors.hpp"
+#include "scenarios/config/degrees.hpp"
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -19,8 +19,6 @@ using hil_bridge::Arrival;
 using hil_bridge::Time;
 using simulator::Truth;
 namespace rosflight = hil_bridge::rosflight;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 rosflight::RosflightGnss message_of(const simulator::GnssReading& reading) {
   rosflight::RosflightGnss fix;

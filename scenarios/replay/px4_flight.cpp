@@ -118,8 +118,8 @@ void append(std::vector<Arrival>& all, const std::vector<Arrival>& more) {
 }  // namespace
 
 MagneticField Px4Flight::field_there() const {
-  constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-  return magnetic_field(first_fix->lat * kRadiansPerDegree, first_fix->lon * kRadiansPerDegree,
+  constexpr double kRadians = std::numbers::pi / 180.0;
+  return magnetic_field(first_fix->lat * kRadians, first_fix->lon * kRadians,
                         static_cast<double>(first_fix->height),
                         unix_time ? decimal_year(*unix_time) : newest_epoch());
 }

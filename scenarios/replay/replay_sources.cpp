@@ -1,10 +1,10 @@
 #include "scenarios/replay/replay_sources.hpp"
+#include "scenarios/config/degrees.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 #include <optional>
 
 #include "scenarios/bench/run_time.hpp"
@@ -20,7 +20,6 @@ namespace ironbird::scenarios {
 
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr const char* kUsualScenario = "scenarios/replay/recorded_flight.toml";
 
 template <class... Values>

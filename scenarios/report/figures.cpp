@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "scenarios/config/degrees.hpp"
 #include "scenarios/report/flight_data.hpp"
+#include "scenarios/report/topics.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr const char* kTruthTopic = "/truth/state";
-constexpr const char* kEstimateTopic = "/autopilot/estimate";
-constexpr const char* kTrajectory = "/autopilot/trajectory";
 constexpr const char* kOutputs = "/fcu/output_raw";
-constexpr const char* kSetpoint = "/autopilot/setpoint";
 
 /// The parts that a curve can play.
 enum class Role { kCommand, kEstimate, kTruth };
@@ -99,7 +96,7 @@ plot::Panel axis_panel(const std::vector<ReportRun>& runs, const char* title, co
                        const std::vector<std::string>& setpoints) {
   PanelMaker maker(runs, title, "m", 0.5);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    maker.add(Role::kCommand, i, command_of(runs[i], "p_N" + suffix, setpoints), kTrajectory);
+    maker.add(Role::kCommand, i, command_of(runs[i], "p_N" + suffix, setpoints), kTrajectoryTopic);
     maker.add(Role::kTruth, i, curve_of(runs[i], kTruthTopic, "p_NB_N" + suffix), kTruthTopic);
     maker.add(Role::kEstimate, i, estimate_of(runs[i], "p_NB_N" + suffix), kEstimateTopic);
   }
@@ -114,7 +111,7 @@ plot::Panel heading_panel(const std::vector<ReportRun>& runs) {
   PanelMaker maker(runs, "heading", "deg", 4.0);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     maker.add(Role::kCommand, i, broken_at_wraps(degrees(command_of(runs[i], "heading", {"heading"}))),
-              kTrajectory);
+              kTrajectoryTopic);
     maker.add(Role::kTruth, i, broken_at_wraps(degrees(angles_of(runs[i], kTruthTopic, "q_NB")[2])),
               kTruthTopic);
     maker.add(Role::kEstimate, i, broken_at_wraps(degrees(estimate_of(runs[i], "heading"))), kEstimateTopic);
@@ -125,7 +122,7 @@ plot::Panel heading_panel(const std::vector<ReportRun>& runs) {
 plot::Panel tilt_panel(const std::vector<ReportRun>& runs, const char* name, std::size_t axis) {
   PanelMaker maker(runs, name, "deg", 2.0);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    maker.add(Role::kCommand, i, degrees(setpoint_of(runs[i], {name})), kSetpoint);
+    maker.add(Role::kCommand, i, degrees(setpoint_of(runs[i], {name})), kSetpointTopic);
     maker.add(Role::kTruth, i, degrees(angles_of(runs[i], kTruthTopic, "q_NB")[axis]), kTruthTopic);
     maker.add(Role::kEstimate, i, degrees(estimate_of(runs[i], name)), kEstimateTopic);
   }
@@ -151,7 +148,7 @@ plot::Panel speed_panel(const std::vector<ReportRun>& runs) {
     const auto command = [&](const std::string& axis) { return trajectory_of(run, "v_N" + axis); };
     const auto truth = [&](const std::string& axis) { return curve_of(run, kTruthTopic, "v_NB_N" + axis); };
     const auto estimate = [&](const std::string& axis) { return estimate_of(run, "v_NB_B" + axis); };
-    maker.add(Role::kCommand, i, length_of(command), kTrajectory);
+    maker.add(Role::kCommand, i, length_of(command), kTrajectoryTopic);
     maker.add(Role::kTruth, i, length_of(truth), kTruthTopic);
     maker.add(Role::kEstimate, i, length_of(estimate), kEstimateTopic);
   }
@@ -272,7 +269,7 @@ plot::TimeStack path_errors(const std::vector<ReportRun>& runs) {
   plot::TimeStack stack{"Distance from the planned path", {}, 1180.0, 120.0};
   PanelMaker maker(runs, "distance to the waypoints' polyline, first to last waypoint", "m", 0.02);
   const bool flew = std::any_of(runs.begin(), runs.end(), [](const ReportRun& run) {
-    return !run.time(kTrajectory).empty() && !run.time(kEstimateTopic).empty();
+    return !run.time(kTrajectoryTopic).empty() && !run.time(kEstimateTopic).empty();
   });
   // A flight without waypoints has a log without a route, and nothing is missing from it.
   if (flew) maker.when_empty("no leg between two waypoints was flown");

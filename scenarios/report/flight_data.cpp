@@ -13,6 +13,7 @@
 
 #include "scenarios/record/held_column.hpp"
 #include "scenarios/record/logged_route.hpp"
+#include "scenarios/report/topics.hpp"
 #include "scenarios/requirements/attitude.hpp"
 #include "scenarios/requirements/metrics.hpp"
 
@@ -21,11 +22,8 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr const char* kTruth = "/truth/state";
-constexpr const char* kEstimate = "/autopilot/estimate";
-constexpr const char* kTrajectory = "/autopilot/trajectory";
-constexpr const char* kSetpoint = "/autopilot/setpoint";
 constexpr const char* kFlight = "/autopilot/flight";
-constexpr std::array<const char*, 3> kAxes{".x", ".y", ".z"};
+constexpr std::array<const char*, 3> kAxisSuffixes{".x", ".y", ".z"};
 
 double mix(double a, double b, double share) {
   return a + share * (b - a);
@@ -68,7 +66,7 @@ Curve difference(const Curve& a, const Curve& b, bool angle) {
 
 Curves vector_of(const ReportRun& run, std::string_view topic, const std::string& field) {
   Curves out;
-  for (std::size_t i = 0; i < 3; ++i) out[i] = curve_of(run, topic, field + kAxes[i]);
+  for (std::size_t i = 0; i < 3; ++i) out[i] = curve_of(run, topic, field + kAxisSuffixes[i]);
   return out;
 }
 
@@ -136,10 +134,10 @@ class LegUnderWay {
  public:
   explicit LegUnderWay(const ReportRun& run)
       : flight_(run),
-        valid_(held(run, kTrajectory, "valid")),
-        reached_(held(run, kTrajectory, "reached")),
-        finished_(held(run, kTrajectory, "finished")),
-        landing_(held(run, kTrajectory, "landing")) {}
+        valid_(held(run, kTrajectoryTopic, "valid")),
+        reached_(held(run, kTrajectoryTopic, "reached")),
+        finished_(held(run, kTrajectoryTopic, "finished")),
+        landing_(held(run, kTrajectoryTopic, "landing")) {}
 
   /// @param time  s, not before that of the call before
   bool at(double time, const autopilot::Route& route) {
@@ -173,7 +171,7 @@ Curve while_flown(const ReportRun& run, Curve curve, bool (autopilot::FlightStat
 
 Curves estimates_of(const ReportRun& run, const std::string& field) {
   Curves out;
-  for (std::size_t i = 0; i < 3; ++i) out[i] = estimate_of(run, field + kAxes[i]);
+  for (std::size_t i = 0; i < 3; ++i) out[i] = estimate_of(run, field + kAxisSuffixes[i]);
   return out;
 }
 
@@ -186,8 +184,8 @@ Curve curve_of(const ReportRun& run, std::string_view topic, std::string_view fi
 }
 
 Curve trajectory_of(const ReportRun& run, std::string_view field) {
-  Curve out = curve_of(run, kTrajectory, field);
-  const std::vector<double>& valid = run.column(kTrajectory, "valid");
+  Curve out = curve_of(run, kTrajectoryTopic, field);
+  const std::vector<double>& valid = run.column(kTrajectoryTopic, "valid");
   for (std::size_t i = 0; i < std::min(out.value.size(), valid.size()); ++i) {
     if (valid[i] == 0.0) out.value[i] = kGap;
   }
@@ -196,12 +194,12 @@ Curve trajectory_of(const ReportRun& run, std::string_view field) {
 
 Curve setpoint_of(const ReportRun& run, const std::vector<std::string>& names) {
   Curve out;
-  const LogTopic* topic = run.log().topic(kSetpoint);
+  const LogTopic* topic = run.log().topic(kSetpointTopic);
   if (topic == nullptr) return out;
   for (const std::string& field : topic->fields()) {
     const auto ends_field = [&](const std::string& name) { return field.ends_with("." + name); };
     if (std::none_of(names.begin(), names.end(), ends_field)) continue;
-    const Curve here = curve_of(run, kSetpoint, field);
+    const Curve here = curve_of(run, kSetpointTopic, field);
     if (out.empty()) out = here;
     for (std::size_t i = 0; i < here.value.size(); ++i) {
       if (std::isfinite(here.value[i])) out.value[i] = here.value[i];
@@ -224,8 +222,8 @@ Curve command_of(const ReportRun& run, std::string_view field, const std::vector
 
 Curve estimate_of(const ReportRun& run, std::string_view field) {
   constexpr auto kNone = static_cast<double>(autopilot::Health::kUninitialised);
-  Curve out = curve_of(run, kEstimate, field);
-  const std::vector<double>& health = run.column(kEstimate, "health");
+  Curve out = curve_of(run, kEstimateTopic, field);
+  const std::vector<double>& health = run.column(kEstimateTopic, "health");
   for (std::size_t i = 0; i < std::min(out.value.size(), health.size()); ++i) {
     if (health[i] == kNone) out.value[i] = kGap;
   }

@@ -9,16 +9,16 @@
 
 #include <Eigen/Geometry>
 
+#include "scenarios/config/degrees.hpp"
 #include "scenarios/report/flight_data.hpp"
+#include "scenarios/report/topics.hpp"
 #include "scenarios/requirements/number_text.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kEstimate = "/autopilot/estimate";
 constexpr const char* kAttitude = "/recorded/attitude";
 constexpr const char* kPosition = "/recorded/position";
 constexpr const char* kFix = "/recorded/fix";
@@ -83,10 +83,12 @@ plot::Panel panel_of(std::string title, std::string unit, double least_span) {
 /// The velocity of the estimate in N.
 Curves velocity_of(const ReportRun& run) {
   Curves out;
-  std::array<std::vector<double>, 3> v_B{run.column(kEstimate, "v_NB_B.x"), run.column(kEstimate, "v_NB_B.y"),
-                                         run.column(kEstimate, "v_NB_B.z")};
-  std::array<std::vector<double>, 4> q{run.column(kEstimate, "q_NB.w"), run.column(kEstimate, "q_NB.x"),
-                                       run.column(kEstimate, "q_NB.y"), run.column(kEstimate, "q_NB.z")};
+  std::array<std::vector<double>, 3> v_B{run.column(kEstimateTopic, "v_NB_B.x"),
+                                         run.column(kEstimateTopic, "v_NB_B.y"),
+                                         run.column(kEstimateTopic, "v_NB_B.z")};
+  std::array<std::vector<double>, 4> q{
+      run.column(kEstimateTopic, "q_NB.w"), run.column(kEstimateTopic, "q_NB.x"),
+      run.column(kEstimateTopic, "q_NB.y"), run.column(kEstimateTopic, "q_NB.z")};
   const Curve since = estimate_of(run, "p_NB_N.x");
   for (std::size_t k = 0; k < std::min(since.time.size(), q[3].size()); ++k) {
     const Eigen::Vector3d v_N = Eigen::Quaterniond(q[0][k], q[1][k], q[2][k], q[3][k]) *

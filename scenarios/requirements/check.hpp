@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@
 #include "scenarios/requirements/window.hpp"
 
 namespace ironbird::scenarios {
+
+/// Where there is no margin, or no single time.
+inline constexpr double kNoMargin = std::numeric_limits<double>::quiet_NaN();
 
 /// What one check found.
 struct CheckResult {

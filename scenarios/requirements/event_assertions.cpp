@@ -9,11 +9,7 @@
 
 namespace ironbird::scenarios {
 
-namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 void ConditionAssertion::sample(double time) {
   if (!condition_.present() || broken_at_) return;
@@ -48,7 +44,7 @@ void ConditionAssertion::judge(const RunFacts&, CheckResult& result) const {
 
 void OrderOfEvents::judge(const RunFacts& facts, CheckResult& result) const {
   result.unit = "s";
-  result.margin = result.time = kNone;
+  result.margin = result.time = kNoMargin;
   if (!from_) {
     result.explanation = "the run ended before " + names_.front() + " could be waited for";
     return;
@@ -74,7 +70,7 @@ void OrderOfEvents::judge(const RunFacts& facts, CheckResult& result) const {
 void OrderOfEvents::fail(const Timeline& timeline, std::size_t name, double previous,
                          CheckResult& result) const {
   result.outcome = Outcome::kFail;
-  result.margin = result.time = kNone;
+  result.margin = result.time = kNoMargin;
   const std::optional<std::size_t> later = timeline.find(names_[name], previous);
   const std::optional<double> any = later ? timeline.events()[*later].time : timeline.first(names_[name]);
   if (!any) {
@@ -96,7 +92,7 @@ void OrderOfEvents::fail(const Timeline& timeline, std::size_t name, double prev
 
 void NoneOfEvents::judge(const RunFacts& facts, CheckResult& result) const {
   result.unit = "s";
-  result.margin = result.time = kNone;
+  result.margin = result.time = kNoMargin;
   if (!from_) {
     result.explanation = "the run ended before anything could be listened for";
     return;
@@ -115,12 +111,12 @@ void NoneOfEvents::judge(const RunFacts& facts, CheckResult& result) const {
 void MetricBound::judge(const RunFacts& facts, CheckResult& result) const {
   const auto found = std::find_if(facts.metrics.begin(), facts.metrics.end(),
                                   [this](const Metric& metric) { return metric.name == metric_; });
-  result.time = result.margin = kNone;
+  result.time = result.margin = kNoMargin;
   if (found == facts.metrics.end() || std::isnan(found->value)) {
     result.explanation = metric_ + " was not measured";
     return;
   }
-  fill(result, {below_ ? bound_ - found->value : found->value - bound_, kNone}, found->unit);
+  fill(result, {below_ ? bound_ - found->value : found->value - bound_, kNoMargin}, found->unit);
   result.explanation = metric_ + " was " + with_unit(found->value, found->unit) + ", must be " +
                        (below_ ? "below " : "above ") + with_unit(bound_, found->unit);
   const bool flew = std::none_of(facts.metrics.begin(), facts.metrics.end(), [](const Metric& metric) {

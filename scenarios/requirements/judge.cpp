@@ -1,6 +1,5 @@
 #include "scenarios/requirements/judge.hpp"
 
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -10,17 +9,12 @@ namespace ironbird::scenarios {
 
 namespace {
 
-double seconds_of(std::chrono::nanoseconds time) {
-  return static_cast<double>(time.count()) * 1e-9;
-}
-
 CheckResult not_judged_result(const CheckConfig& check, const std::string& reason) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   CheckResult result;
   result.kind = kind_of(check);
   result.name = check.name.empty() ? result.kind : check.name;
   result.outcome = Outcome::kNotJudged;
-  result.margin = result.time = kNone;
+  result.margin = result.time = kNoMargin;
   result.explanation = reason;
   return result;
 }
@@ -30,7 +24,7 @@ CheckResult not_judged_result(const CheckConfig& check, const std::string& reaso
 Judge::Judge(const std::vector<CheckConfig>& checks, const SignalTable& signals, RunMetrics::Sources sources,
              Time tick, std::vector<std::string> not_judged)
     : metrics_(sources), detector_(*sources.autopilot) {
-  const CheckContext context{&signals, sources.autopilot, seconds_of(tick)};
+  const CheckContext context{&signals, sources.autopilot, autopilot::seconds(tick)};
   checks_.reserve(checks.size());
   for (std::size_t i = 0; i < checks.size(); ++i) {
     try {
@@ -46,11 +40,11 @@ Judge::Judge(const std::vector<CheckConfig>& checks, const SignalTable& signals,
 }
 
 void Judge::event(Time now, std::string kind, std::string text) {
-  timeline_.add(seconds_of(now), std::move(kind), std::move(text));
+  timeline_.add(autopilot::seconds(now), std::move(kind), std::move(text));
 }
 
 void Judge::observe(Time now) {
-  const double time = seconds_of(now);
+  const double time = autopilot::seconds(now);
   detector_.observe(time, timeline_);
   metrics_.observe(now);
   for (auto& each : checks_) {

@@ -4,17 +4,16 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
+#include "scenarios/config/degrees.hpp"
 #include "scenarios/requirements/attitude.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
 void add(std::array<MeanSquare, 3>& axes, const Eigen::Vector3d& error) {
   for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)].add(error[i]);
@@ -32,10 +31,6 @@ double worst(std::initializer_list<double> values) {
     if (std::isnan(value)) return value;
   }
   return out;
-}
-
-double seconds_of(std::chrono::nanoseconds time) {
-  return static_cast<double>(time.count()) * 1e-9;
 }
 
 /// From `p` to the nearest point of the segment from `a` to `b`.
@@ -60,7 +55,7 @@ void append_axes(std::vector<Metric>& out, const std::string& stem, const std::a
 }  // namespace
 
 double MeanSquare::root() const {
-  return empty() ? kNone : std::sqrt(sum_ / static_cast<double>(count_));
+  return empty() ? kNoFigure : std::sqrt(sum_ / static_cast<double>(count_));
 }
 
 Eigen::Vector3d to_polyline(const Eigen::Vector3d& p_N, const autopilot::Route& route) {
@@ -180,9 +175,9 @@ std::vector<Metric> RunMetrics::results() const {
   append("max_tilt_deg", max_tilt_ * kDegrees, "deg",
          "greatest angle of the body's down axis to the vertical");
   append("max_speed_mps", max_speed_, "m/s", "greatest speed over ground");
-  append(kFlightTime, seconds_of(airborne_), "s", "time airborne");
-  append(kSimulatedTime, seconds_of(last_), "s", "length of the run");
-  append("real_time_factor", wall_seconds_ > 0.0 ? seconds_of(last_) / wall_seconds_ : kNone, "1",
+  append(kFlightTime, autopilot::seconds(airborne_), "s", "time airborne");
+  append(kSimulatedTime, autopilot::seconds(last_), "s", "length of the run");
+  append("real_time_factor", wall_seconds_ > 0.0 ? autopilot::seconds(last_) / wall_seconds_ : kNoFigure, "1",
          "simulated time per wall-clock time");
   return out;
 }

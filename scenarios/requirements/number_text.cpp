@@ -3,7 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+
+#include "scenarios/config/degrees.hpp"
 
 namespace ironbird::scenarios {
 
@@ -17,7 +18,6 @@ std::string short_number(double value) {
 }
 
 std::string with_unit(double value, std::string_view unit, Angles angles) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   const bool in_degrees = angles == Angles::kDegrees;
   if (unit == "rad" && in_degrees) return short_number(value * kDegrees) + " deg";
   if (unit == "rad/s" && in_degrees) return short_number(value * kDegrees) + " deg/s";

@@ -11,7 +11,6 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr const char* kThereFromTheStart = "it was there from the start; `after` says from when it counts";
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string at(double time) {
   return " at " + with_unit(time, "s");
@@ -30,8 +29,8 @@ void fill(CheckResult& result, const stl::Robustness& found, const std::string& 
 
 void fill_unseen(CheckResult& result, const std::string& what) {
   result.outcome = Outcome::kInconclusive;
-  result.margin = kNone;
-  result.time = kNone;
+  result.margin = kNoMargin;
+  result.time = kNoMargin;
   result.explanation = what + " was never there to be judged";
 }
 
@@ -137,7 +136,7 @@ void Settles::take(double time) {
 void Settles::conclude(CheckResult& result) const {
   if (!always_.robustness()) {
     result.outcome = Outcome::kInconclusive;
-    result.margin = result.time = kNone;
+    result.margin = result.time = kNoMargin;
     result.unit = wording().unit;
     result.explanation = "the run ended before " + wording().what + " had to be settled";
     return;

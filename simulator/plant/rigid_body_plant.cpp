@@ -5,12 +5,12 @@
 namespace ironbird::simulator {
 namespace {
 
-using Coefficients = Eigen::Matrix<double, 4, 1>;  // of a quaternion, in Eigen's order x, y, z, w
+using QuaternionCoefficients = Eigen::Matrix<double, 4, 1>;  // of a quaternion, in Eigen's order x, y, z, w
 
 /// Time derivative of everything that the plant integrates.
 struct Rates {
   Vector3 p_N;
-  Coefficients q;
+  QuaternionCoefficients q;
   Vector3 v_N;
   Vector3 w_B;
   RotorSpeeds rotors;

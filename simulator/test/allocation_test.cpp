@@ -46,7 +46,6 @@ namespace ironbird::simulator {
 namespace {
 
 TEST(AllocationTest, StepsWithoutTakingMemory) {
-  constexpr Time kTick = std::chrono::microseconds(2500);
   WorldConfig config;
   config.vehicle = test_vehicle();
   config.on_ground = false;

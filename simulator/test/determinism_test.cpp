@@ -15,16 +15,9 @@
 namespace ironbird::simulator {
 namespace {
 
-constexpr Time kTick = std::chrono::microseconds(2500);
-
 std::unique_ptr<Plant> make_rigid_body_plant(const VehicleParams&, const FieldParams&) {
   return std::make_unique<RigidBodyPlant>();
 }
-
-struct Engine {
-  const char* name;
-  std::unique_ptr<Plant> (*make)(const VehicleParams&, const FieldParams&);
-};
 
 /// Collects the bits of every number of a described struct.
 struct Bits {

@@ -10,8 +10,6 @@
 namespace ironbird::simulator {
 namespace {
 
-constexpr Time kTick = std::chrono::microseconds(2500);
-
 WorldConfig falling() {
   WorldConfig config;
   config.vehicle = test_vehicle();
@@ -27,12 +25,6 @@ double energy(const World& world) {
   const MassProperties& mass = world.vehicle().mass_properties();
   return 0.5 * mass.mass * truth.v_NB_N.squaredNorm() + 0.5 * truth.w_NB_B.dot(mass.J_Bcm_B * truth.w_NB_B) -
          mass.mass * world.environment().gravity() * truth.p_NB_N.z();
-}
-
-RotorCommands all(double throttle) {
-  RotorCommands commands;
-  commands.throttle.fill(throttle);
-  return commands;
 }
 
 TEST(EnergyTest, IsConservedInFreeFall) {

@@ -17,7 +17,6 @@
 namespace ironbird::simulator {
 namespace {
 
-constexpr Time kTick = std::chrono::microseconds(2500);
 constexpr double kDt = 0.0025;
 
 WorldConfig in_the_air() {
@@ -26,12 +25,6 @@ WorldConfig in_the_air() {
   config.initial_p_NB_N = Vector3(0.0, 0.0, -20.0);
   config.on_ground = false;
   return config;
-}
-
-RotorCommands all(double throttle) {
-  RotorCommands commands;
-  commands.throttle.fill(throttle);
-  return commands;
 }
 
 World make_world(const WorldConfig& config) {
@@ -308,11 +301,6 @@ TEST(WorldFaultTest, RefusesARotorThatIsNotThereAndForgetsUnknownNumbers) {
   fly(world, all(0.5), 1);
   EXPECT_EQ(world.faults().rotor_efficiency[0], 1.0);
 }
-
-struct Engine {
-  const char* name;
-  std::unique_ptr<Plant> (*make)(const VehicleParams&, const FieldParams&);
-};
 
 class WorldOnGroundTest : public ::testing::TestWithParam<Engine> {};
 

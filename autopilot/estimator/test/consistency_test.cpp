@@ -171,13 +171,18 @@ void take_heading_from_compass(StartState& start, const FakeTruth& truth, const 
   start.q_NB = (Quaternion(Eigen::AngleAxisd(turn, Vector3::UnitZ())) * start.q_NB).normalized();
 }
 
+/// The square of `error` in units of its covariance.
+double normalised_square(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) {
+  return error.dot(covariance.ldlt().solve(error));
+}
+
 double nees(const TestedEkf& filter, const FakeTruth& truth, const Hidden& hidden) {
   EkfState::Vector error;
   Vector3 angle;
   for (int i = 0; i < 3; ++i) angle[i] = shortest_difference(truth.theta[i], filter.state().theta[i]);
   error << truth.p_N - filter.state().p_NB_N, truth.R_NB.transpose() * truth.v_N - filter.state().v_NB_B,
       angle, hidden.gyro_bias - filter.state().gyro_bias_B;
-  return error.dot(filter.covariance().ldlt().solve(error));
+  return normalised_square(error, filter.covariance());
 }
 
 double nees(const TestedErrorState& filter, const FakeTruth& truth, const Hidden& hidden) {
@@ -197,7 +202,7 @@ double nees(const TestedErrorState& filter, const FakeTruth& truth, const Hidden
   const ErrorState::Vector scale = filter.covariance().diagonal().cwiseSqrt().cwiseInverse();
   const ErrorState::Matrix correlation = scale.asDiagonal() * filter.covariance() * scale.asDiagonal();
   const ErrorState::Vector scaled = scale.cwiseProduct(error);
-  return scaled.dot(correlation.ldlt().solve(scaled));
+  return normalised_square(scaled, correlation);
 }
 
 /// Sums over the seeds at one check time.

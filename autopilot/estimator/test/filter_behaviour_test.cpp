@@ -272,12 +272,11 @@ INSTANTIATE_TEST_SUITE_P(Filters, FilterTest, ::testing::Values(Kind::kEkf, Kind
                          [](const auto& case_) { return case_.param == Kind::kEkf ? "Ekf" : "ErrorState"; });
 
 /// Largest difference of P from its transpose, and its least eigenvalue after scaling to unit diagonal.
-template <class Matrix>
-void expect_symmetric_positive(const Matrix& P) {
+void expect_symmetric_positive(const Eigen::MatrixXd& P) {
   EXPECT_EQ((P - P.transpose()).cwiseAbs().maxCoeff(), 0.0);
-  const Matrix scale = P.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
-  const Matrix correlation = scale * P * scale;
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix>(correlation).eigenvalues().minCoeff(), 0.0);
+  const Eigen::VectorXd scale = P.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd correlation = scale.asDiagonal() * P * scale.asDiagonal();
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation).eigenvalues().minCoeff(), 0.0);
 }
 
 TEST(EkfTest, KeepsItsCovarianceSymmetricAndPositive) {

@@ -190,7 +190,9 @@ INSTANTIATE_TEST_SUITE_P(Attitudes, AttitudeFromVectorsCaseTest,
                                            AttitudeCase{"Tilted", {0.2, -0.3, 2.5}, {0.0, 0.0, 0.0}},
                                            AttitudeCase{"South", {0.0, 0.1, 3.14159}, {0.0, 0.0, 0.0}},
                                            AttitudeCase{"Accelerating", {0.3, 0.2, -1.0}, {2.0, -1.5, 0.5}},
-                                           AttitudeCase{"Inverted", {3.0, 0.1, 0.4}, {0.0, 0.0, 0.0}}),
+                                           AttitudeCase{"Inverted", {3.0, 0.1, 0.4}, {0.0, 0.0, 0.0}},
+                                           AttitudeCase{
+                                               "UpsideDown", {std::numbers::pi, 0.0, 0.4}, {0.0, 0.0, 0.0}}),
                          [](const auto& case_) { return std::string(case_.param.name); });
 
 TEST(AttitudeFromVectorsTest, SaysWhenTheFieldLeavesTheHeadingOpen) {

@@ -8,7 +8,7 @@
 namespace ironbird::autopilot {
 namespace {
 
-constexpr double kRoundOff = 1e-12;
+constexpr double kPidRoundOff = 1e-12;
 constexpr double kTau = 0.05;
 constexpr double kDt = 0.0025;
 
@@ -20,14 +20,14 @@ Pid made(double kp, double ki, double kd, double limit = Pid::kUnlimited) {
 
 TEST(PidTest, IsProportionalToTheErrorAndDampsTheRate) {
   Pid pid = made(2.0, 0.0, 0.5);
-  EXPECT_NEAR(pid.run(3.0, 4.0, kDt), 2.0 * 3.0 - 0.5 * 4.0, kRoundOff);
+  EXPECT_NEAR(pid.run(3.0, 4.0, kDt), 2.0 * 3.0 - 0.5 * 4.0, kPidRoundOff);
 }
 
 TEST(PidTest, IntegratesAConstantErrorExactly) {
   Pid pid = made(0.0, 0.7, 0.0);
   double u = 0.0;
   for (int i = 0; i < 400; ++i) u = pid.run(1.5, 0.0, kDt);
-  EXPECT_NEAR(u, 0.7 * 1.5 * 400 * kDt, kRoundOff);
+  EXPECT_NEAR(u, 0.7 * 1.5 * 400 * kDt, kPidRoundOff);
 }
 
 TEST(PidTest, IntegratesARampByTheTrapezoidalRuleExactly) {
@@ -35,7 +35,7 @@ TEST(PidTest, IntegratesARampByTheTrapezoidalRuleExactly) {
   pid.run(0.0, 0.0, 0.0);
   double u = 0.0;
   for (int i = 1; i <= 400; ++i) u = pid.run(i * kDt, 0.0, kDt);
-  EXPECT_NEAR(u, 0.5 * 400 * kDt * 400 * kDt, kRoundOff);
+  EXPECT_NEAR(u, 0.5 * 400 * kDt * 400 * kDt, kPidRoundOff);
 }
 
 TEST(PidTest, DoesNotIntegrateWhenToldNotToOrOverAGap) {
@@ -77,7 +77,7 @@ TEST(PidTest, DoesNotWindUpWhileTheProportionalPartAloneIsAtTheLimit) {
 TEST(PidTest, GivesTheIntegralNoMoreThanTheRestOfTheRange) {
   Pid pid = made(1.0, 5.0, 0.0, 2.0);
   for (int i = 0; i < 4000; ++i) pid.run(0.5, 0.0, kDt);
-  EXPECT_NEAR(pid.integral_part(), 1.5, kRoundOff);
+  EXPECT_NEAR(pid.integral_part(), 1.5, kPidRoundOff);
   EXPECT_LT(pid.run(-0.5, 0.0, kDt), 1.1) << "it comes back at once";
 }
 

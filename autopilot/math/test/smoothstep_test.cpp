@@ -7,7 +7,7 @@
 namespace ironbird::autopilot {
 namespace {
 
-constexpr double kRoundOff = 1e-14;
+constexpr double kSmoothstepRoundOff = 1e-14;
 constexpr double kStep = 1e-5;
 constexpr double kCentralDifference = 1e-8;  // of order kStep^2 times the third derivative, plus rounding
 
@@ -22,14 +22,16 @@ TEST(SmoothstepTest, BeginsAndEndsAtRest) {
 
 TEST(SmoothstepTest, IsHalfWayAtHalfTimeWithItsPeakRate) {
   const Smoothstep s = smoothstep(0.5);
-  EXPECT_NEAR(s.value, 0.5, kRoundOff);
-  EXPECT_NEAR(s.first, Smoothstep::kPeakFirst, kRoundOff);
-  EXPECT_NEAR(s.second, 0.0, kRoundOff);
+  EXPECT_NEAR(s.value, 0.5, kSmoothstepRoundOff);
+  EXPECT_NEAR(s.first, Smoothstep::kPeakFirst, kSmoothstepRoundOff);
+  EXPECT_NEAR(s.second, 0.0, kSmoothstepRoundOff);
 }
 
 TEST(SmoothstepTest, HasItsPeakCurvatureWhereTheThirdDerivativeIsZero) {
-  EXPECT_NEAR(smoothstep(0.5 - std::sqrt(3.0) / 6.0).second, Smoothstep::kPeakSecond, kRoundOff * 10.0);
-  EXPECT_NEAR(smoothstep(0.5 + std::sqrt(3.0) / 6.0).second, -Smoothstep::kPeakSecond, kRoundOff * 10.0);
+  EXPECT_NEAR(smoothstep(0.5 - std::sqrt(3.0) / 6.0).second, Smoothstep::kPeakSecond,
+              kSmoothstepRoundOff * 10.0);
+  EXPECT_NEAR(smoothstep(0.5 + std::sqrt(3.0) / 6.0).second, -Smoothstep::kPeakSecond,
+              kSmoothstepRoundOff * 10.0);
 }
 
 TEST(SmoothstepTest, HasDerivativesThatAgreeWithCentralDifferences) {

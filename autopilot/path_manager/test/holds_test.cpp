@@ -7,8 +7,6 @@
 namespace ironbird::autopilot {
 namespace {
 
-constexpr double kRoundOff = 1e-9;
-constexpr double kTick = PerfectFlight::kDt;
 constexpr double kForever = 60.0;  // s, long enough to see that a hold lasts
 
 class HoldsTest : public ::testing::Test {
@@ -64,13 +62,13 @@ TEST_F(HoldsTest, BeginAnewWhenAskedForAgain) {
   hold_here(10.0);
   const Time again = flight_.estimate.stamp;
   ASSERT_TRUE(flight_.until(20.0, [](const auto& p) { return !p.holding; }));
-  EXPECT_NEAR(seconds(flight_.estimate.stamp - again), 10.0, 1.5 * kTick);
+  EXPECT_NEAR(seconds(flight_.estimate.stamp - again), 10.0, 1.5 * PerfectFlight::kDt);
 }
 
 TEST_F(HoldsTest, OnTheSpotLetAWaypointsHoldGoOnWhereItWas) {
   hold_at_waypoint(9.0);
   hold_here(1.0);
-  EXPECT_NEAR(time_to_leave(flight_), 1.0 + 1.0, 4.0 * kTick);
+  EXPECT_NEAR(time_to_leave(flight_), 1.0 + 1.0, 4.0 * PerfectFlight::kDt);
   EXPECT_EQ(flight_.last.reached, 1u);
 }
 
@@ -79,7 +77,7 @@ TEST_F(HoldsTest, AtAWaypointGoOnAfterAnOverride) {
   flight_.flight.fcu.rc_override = 1;
   flight_.fly(5.0);
   flight_.flight.fcu.rc_override = 0;
-  EXPECT_NEAR(time_to_leave(flight_), 1.0, 4.0 * kTick);
+  EXPECT_NEAR(time_to_leave(flight_), 1.0, 4.0 * PerfectFlight::kDt);
 }
 
 TEST_F(HoldsTest, AreReleasedEvenWhileThePilotFlies) {
@@ -143,13 +141,13 @@ TEST_F(HoldsTest, OnTheSpotLastNoLongerForASwap) {
   swap();
   const Time began = second_.estimate.stamp;
   ASSERT_TRUE(second_.until(20.0, [](const auto& p) { return !p.paused; }));
-  EXPECT_NEAR(seconds(second_.estimate.stamp - began), 1.0, 4.0 * kTick);
+  EXPECT_NEAR(seconds(second_.estimate.stamp - began), 1.0, 4.0 * PerfectFlight::kDt);
 }
 
 TEST_F(HoldsTest, AtAWaypointLastNoLongerForASwap) {
   hold_at_waypoint(9.0);
   swap();
-  EXPECT_NEAR(time_to_leave(second_), 1.0, 4.0 * kTick);
+  EXPECT_NEAR(time_to_leave(second_), 1.0, 4.0 * PerfectFlight::kDt);
   EXPECT_EQ(second_.last.reached, 1u) << "counted once";
 }
 
@@ -158,18 +156,18 @@ TEST_F(HoldsTest, SayWhatIsLeftOfThem) {
   EXPECT_TRUE(flight_.last.at_waypoint);
   EXPECT_FALSE(flight_.last.paused);
   ASSERT_TRUE(flight_.last.hold_left);
-  EXPECT_NEAR(*flight_.last.hold_left, 6.0, 2.0 * kTick);
+  EXPECT_NEAR(*flight_.last.hold_left, 6.0, 2.0 * PerfectFlight::kDt);
   hold_here();
   flight_.fly(1.0);
   EXPECT_TRUE(flight_.last.paused);
   EXPECT_FALSE(flight_.last.pause_left) << "until released";
-  EXPECT_NEAR(*flight_.last.hold_left, 6.0, 3.0 * kTick) << "it stands meanwhile";
+  EXPECT_NEAR(*flight_.last.hold_left, 6.0, 3.0 * PerfectFlight::kDt) << "it stands meanwhile";
 }
 
 TEST_F(HoldsTest, PassWithTimeAlsoWhenNoEstimatesCome) {
   hold_at_waypoint(1.0);
   flight_.estimate.stamp += std::chrono::seconds(5);
-  EXPECT_NEAR(time_to_leave(flight_), 4.0, 4.0 * kTick);
+  EXPECT_NEAR(time_to_leave(flight_), 4.0, 4.0 * PerfectFlight::kDt);
 }
 
 TEST(ReferenceTest, DoesNotJumpWhenEstimatesStopComing) {

@@ -10,9 +10,8 @@
 namespace ironbird::autopilot {
 namespace {
 
-constexpr double kRoundOff = 1e-9;
-constexpr double kTick = 1e-3;     // s
-constexpr double kAnywhere = 1e3;  // m, an excursion that nothing reaches
+constexpr double kFineStep = 1e-3;  // s
+constexpr double kAnywhere = 1e3;   // m, an excursion that nothing reaches
 
 MinimumSnapTrajectory example(const MotionLimits& limits) {
   MinimumSnapTrajectory trajectory;
@@ -128,10 +127,10 @@ TEST_P(MinimumSnapLimitsTest, AreMetButNeverExceeded) {
   const double most_jerk = limits.max_acceleration / limits.rise_time;
   const double most_heading_jerk = limits.max_heading_acceleration / limits.rise_time;
   MotionPoint last = trajectory.evaluate(0.0);
-  for (double t = 0.0; t <= trajectory.duration(); t += kTick) {
+  for (double t = 0.0; t <= trajectory.duration(); t += kFineStep) {
     const MotionPoint point = trajectory.evaluate(t);
-    const double jerk = (point.a_N - last.a_N).norm() / kTick;
-    const double heading_jerk = std::abs(point.heading_acceleration - last.heading_acceleration) / kTick;
+    const double jerk = (point.a_N - last.a_N).norm() / kFineStep;
+    const double heading_jerk = std::abs(point.heading_acceleration - last.heading_acceleration) / kFineStep;
     last = point;
     ASSERT_LE(jerk, most_jerk);
     ASSERT_LE(heading_jerk, most_heading_jerk);

@@ -7,6 +7,8 @@
 
 namespace ironbird::autopilot {
 
+inline constexpr double kRoundOff = 1e-9;
+
 /// A waypoint with the number that a planner would have given it.
 inline Waypoint waypoint(std::uint32_t id, const Vector3& p_N, double heading = 0.0,
                          WaypointKind kind = WaypointKind::kGoto) {

@@ -14,9 +14,6 @@
 namespace ironbird::autopilot {
 namespace {
 
-constexpr double kRoundOff = 1e-9;
-constexpr double kTick = PerfectFlight::kDt;
-
 class SmoothstepManagerTest : public ::testing::Test {
  protected:
   SmoothstepManager manager_;
@@ -42,9 +39,9 @@ TEST_F(SmoothstepManagerTest, StartsWhereTheVehicleIsAndFollowsTheClosedForm) {
   const double duration = 1.875 * 20.0 / 3.0;
   flight_.step();
   // THEN every point lies on the smooth step whose clock began at the first tick
-  for (int i = 1; i < duration / kTick; ++i) {
+  for (int i = 1; i < duration / PerfectFlight::kDt; ++i) {
     const TrajectoryPoint& point = flight_.step();
-    const Smoothstep s = smoothstep(i * kTick / duration);
+    const Smoothstep s = smoothstep(i * PerfectFlight::kDt / duration);
     ASSERT_LT((point.p_N - Vector3(1, 2, -3) - s.value * way).norm(), kRoundOff);
     ASSERT_LT((point.v_N - s.first / duration * way).norm(), kRoundOff);
     ASSERT_LT((point.a_N - s.second / (duration * duration) * way).norm(), kRoundOff);
@@ -66,8 +63,8 @@ TEST_F(SmoothstepManagerTest, MovesItsReferenceAlongWhenThePositionJumpsAndMakes
   ++flight_.estimate.position_resets;
   // THEN the reference is where it would have been, beside, and as fast
   const TrajectoryPoint after = flight_.step();
-  EXPECT_LT((after.p_N - before.p_N - jump_N).norm(), 1.5 * kTick * before.v_N.norm());
-  EXPECT_LT((after.v_N - before.v_N).norm(), 1.5 * kTick * 2.5);
+  EXPECT_LT((after.p_N - before.p_N - jump_N).norm(), 1.5 * PerfectFlight::kDt * before.v_N.norm());
+  EXPECT_LT((after.v_N - before.v_N).norm(), 1.5 * PerfectFlight::kDt * 2.5);
   // AND within its limits it comes to the waypoint all the same
   double fastest = 0.0;
   EXPECT_TRUE(flight_.until(60.0, [&](const TrajectoryPoint& point) {
@@ -87,11 +84,12 @@ TEST_F(SmoothstepManagerTest, IsContinuousAndWithinItsLimitsOverAWholeRoute) {
   flight_.step();
   TrajectoryPoint before = flight_.last;
   double fastest_last_leg = 0.0;
-  for (int i = 0; i < 60.0 / kTick && !flight_.last.finished; ++i) {
+  for (int i = 0; i < 60.0 / PerfectFlight::kDt && !flight_.last.finished; ++i) {
     const TrajectoryPoint& now = flight_.step();
-    ASSERT_LE((now.p_N - before.p_N).norm(), 3.0 * kTick + kRoundOff);
-    ASSERT_LE((now.v_N - before.v_N).norm(), 2.5 * kTick + kRoundOff);
-    ASSERT_LE(std::abs(shortest_difference(now.heading, before.heading)), 1.0 * kTick + kRoundOff);
+    ASSERT_LE((now.p_N - before.p_N).norm(), 3.0 * PerfectFlight::kDt + kRoundOff);
+    ASSERT_LE((now.v_N - before.v_N).norm(), 2.5 * PerfectFlight::kDt + kRoundOff);
+    ASSERT_LE(std::abs(shortest_difference(now.heading, before.heading)),
+              1.0 * PerfectFlight::kDt + kRoundOff);
     ASSERT_LE(now.a_N.norm(), 2.5 + kRoundOff);
     if (now.leg == 4) fastest_last_leg = std::max(fastest_last_leg, now.v_N.norm());
     before = now;
@@ -174,7 +172,7 @@ TEST_F(SmoothstepManagerTest, HoldsForATimeAndThenFliesOn) {
   ASSERT_TRUE(flight_.until(10.0, [](const auto& p) { return p.holding; }));
   const Time began = flight_.estimate.stamp;
   ASSERT_TRUE(flight_.until(10.0, [](const auto& p) { return !p.holding; }));
-  EXPECT_NEAR(seconds(flight_.estimate.stamp - began), 2.0, kTick / 2.0);
+  EXPECT_NEAR(seconds(flight_.estimate.stamp - began), 2.0, PerfectFlight::kDt / 2.0);
   EXPECT_EQ(flight_.last.leg, 1u);
 }
 
@@ -244,10 +242,10 @@ TEST_F(SmoothstepManagerTest, RestartsTheRouteOnTheGround) {
 /// route.
 void expect_smooth(PerfectFlight& flight, double seconds) {
   TrajectoryPoint before = flight.last;
-  for (int i = 0; i < seconds / kTick; ++i) {
+  for (int i = 0; i < seconds / PerfectFlight::kDt; ++i) {
     const TrajectoryPoint& now = flight.step();
-    ASSERT_LE((now.p_N - before.p_N).norm(), 3.0 * kTick + kRoundOff) << i;
-    ASSERT_LE((now.v_N - before.v_N).norm(), 2.5 * kTick + kRoundOff) << i;
+    ASSERT_LE((now.p_N - before.p_N).norm(), 3.0 * PerfectFlight::kDt + kRoundOff) << i;
+    ASSERT_LE((now.v_N - before.v_N).norm(), 2.5 * PerfectFlight::kDt + kRoundOff) << i;
     before = now;
   }
 }
@@ -277,7 +275,7 @@ TEST_F(SmoothstepManagerTest, HoldsOnTheSpotForATime) {
   ASSERT_TRUE(flight_.until(5.0, [](const auto& p) { return p.holding; }));
   const Time began = flight_.estimate.stamp;
   ASSERT_TRUE(flight_.until(5.0, [](const auto& p) { return !p.holding; }));
-  EXPECT_NEAR(seconds(flight_.estimate.stamp - began), 3.0, kTick / 2.0);
+  EXPECT_NEAR(seconds(flight_.estimate.stamp - began), 3.0, PerfectFlight::kDt / 2.0);
 }
 
 TEST_F(SmoothstepManagerTest, KeepsFlyingItsLegWhenOtherWaypointsChange) {
@@ -288,7 +286,7 @@ TEST_F(SmoothstepManagerTest, KeepsFlyingItsLegWhenOtherWaypointsChange) {
                waypoint(4, Vector3(5, 0, 0))});
   flight_.step();
   EXPECT_EQ(flight_.last.leg, 1u);
-  EXPECT_NEAR(flight_.last.v_N.x(), v_N.x(), 2.5 * kTick);
+  EXPECT_NEAR(flight_.last.v_N.x(), v_N.x(), 2.5 * PerfectFlight::kDt);
   expect_smooth(flight_, 60.0);
   EXPECT_EQ(flight_.last.leg, 3u);
   EXPECT_TRUE(flight_.last.finished);

@@ -27,7 +27,7 @@ namespace ironbird::hil_bridge::can {
 namespace {
 
 constexpr int kFrames = 1'000'000;
-constexpr std::uint8_t kOwnNode = 10;
+constexpr std::uint8_t kAttackedNode = 10;
 /// The one good sender. Hostile frames carry any other number: nothing helps against one's own name.
 constexpr std::uint8_t kGoodNode = 42;
 
@@ -71,7 +71,7 @@ CanFrame hostile_frame(Dice& dice, bool close) {
   head.kind = type.kind;
   head.data_type_id = type.data_type_id;
   head.source = static_cast<std::uint8_t>(dice.below(128));
-  head.destination = kOwnNode;
+  head.destination = kAttackedNode;
   frame.identifier = close ? identifier_of(head) : static_cast<std::uint32_t>(dice.below(1U << 29U));
   if ((frame.identifier & 0x7FU) == kGoodNode) frame.identifier ^= 1U;
   return frame;
@@ -87,7 +87,7 @@ class HostileBusTest : public ::testing::TestWithParam<bool> {};
 
 TEST_P(HostileBusTest, LetsGoodTransfersThroughWithoutAnAllocation) {
   Dice dice(20261122);
-  TransferReceiver receiver(kOwnNode, kSubscriptions);
+  TransferReceiver receiver(kAttackedNode, kSubscriptions);
   const EscStatus status = {.error_count = 3, .voltage = 15.5F, .rpm = 4321, .esc_index = 2};
   const Payload<EscStatus> payload = encode(status);
   constexpr Subscription kGood = subscription<EscStatus>();

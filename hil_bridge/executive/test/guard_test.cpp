@@ -14,10 +14,9 @@ namespace ironbird::hil_bridge {
 namespace {
 
 using std::chrono::milliseconds;
+using test::kPeriod;
 using enum InterlockState;
 using test::LiveGuard;
-
-constexpr Time kPeriod = std::chrono::microseconds(2500);
 
 autopilot::FcuCommand lift(double thrust = 20.0) {
   return autopilot::PassThroughCommand{.thrust = thrust};

@@ -4,6 +4,8 @@
 
 namespace ironbird::hil_bridge::test {
 
+inline constexpr Time kPeriod = std::chrono::microseconds(2500);
+
 /// A unit about which everything is as the test says.
 class ToldWatch final : public UnitWatch {
  public:

@@ -16,8 +16,7 @@ namespace {
 
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
-
-constexpr Time kPeriod = microseconds(2500);
+using test::kPeriod;
 
 /// Says when the line has something: then, or at the end of the wait, it is.
 class ScriptedClock final : public Clock {

@@ -8,7 +8,7 @@
 namespace ironbird::hil_bridge {
 namespace {
 
-constexpr Time kPeriod = std::chrono::microseconds(2500);
+constexpr Time kMotorsPeriod = std::chrono::microseconds(2500);
 
 /// A controller of CAN motors, and the bench that plays them.
 class Loop {
@@ -21,10 +21,10 @@ class Loop {
   simulator::RotorCommands run(double seconds) {
     simulator::RotorCommands commands;
     for (const Time end = now_ + Time(static_cast<std::int64_t>(seconds * 1e9)); now_ < end;) {
-      now_ += kPeriod;
+      now_ += kMotorsPeriod;
       controller_.command(throttles, now_);
       controller_.step(now_);
-      bus_.advance(now_ + kPeriod);
+      bus_.advance(now_ + kMotorsPeriod);
       commands = motors_.step(truth, now_);
     }
     return commands;

@@ -14,9 +14,8 @@
 namespace ironbird::hil_bridge {
 namespace {
 
+using test::kTick;
 using test::Puppet;
-
-constexpr Time kTick = std::chrono::microseconds(2500);
 
 simulator::WorldConfig world_config() {
   simulator::WorldConfig config;

@@ -6,6 +6,8 @@
 
 namespace ironbird::hil_bridge::test {
 
+inline constexpr Time kTick = std::chrono::microseconds(2500);
+
 /// A unit that says what the test wants, and remembers what it was told.
 class Puppet final : public Fcu {
  public:

@@ -15,7 +15,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Time kPeriod = std::chrono::microseconds(2500);
+constexpr Time kStandPeriod = std::chrono::microseconds(2500);
 constexpr std::array kThrottles = {0.25, 0.5, 0.75, 1.0};
 
 /// Four real motor controllers, played, that turn by whatever the bus tells them; the gate is set by hand.
@@ -27,11 +27,11 @@ class Stand {
 
   void run(int periods) {
     for (int k = 0; k < periods; ++k) {
-      now += kPeriod;
+      now += kStandPeriod;
       if (wants) motors_->want(*wants, now - age);
       if (motors_) motors_->step(now);
-      bus_.advance(now + kPeriod);
-      escs_.step(readings_, now + kPeriod);
+      bus_.advance(now + kStandPeriod);
+      escs_.step(readings_, now + kStandPeriod);
     }
   }
   /// The greatest throttle of the four, and why.

@@ -13,7 +13,7 @@
 namespace ironbird::hil_bridge {
 namespace {
 
-constexpr Time kTick = std::chrono::microseconds(2500);
+using test::kTick;
 constexpr std::array kSpeeds = {100.0, 200.0, 300.0, 400.0};  // rad/s
 
 /// A unit that tells its outputs 50 times a second, and four motor controllers on a stand.

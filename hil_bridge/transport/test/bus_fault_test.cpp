@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 
 constexpr std::uint32_t kIdentifier = 0x0804060A;
 
-CanFrame numbered(int number) {
+CanFrame counted_frame(int number) {
   CanFrame frame;
   frame.identifier = kIdentifier;
   frame.size = 2;
@@ -43,7 +43,7 @@ class FaultyBus {
   std::vector<CanFrame> sent(int count) {
     std::vector<CanFrame> heard;
     for (int k = 0; k < count + 100; ++k) {
-      if (k < count) fault_.send(numbered(k));
+      if (k < count) fault_.send(counted_frame(k));
       advance();
       while (const auto frame = peer_->receive()) heard.push_back(frame->frame);
     }
@@ -52,7 +52,7 @@ class FaultyBus {
   std::vector<CanFrame> received(int count) {
     std::vector<CanFrame> heard;
     for (int k = 0; k < count + 100; ++k) {
-      if (k < count) peer_->send(numbered(k));
+      if (k < count) peer_->send(counted_frame(k));
       advance();
       while (const auto frame = fault_.receive()) heard.push_back(frame->frame);
     }
@@ -68,21 +68,21 @@ class FaultyBus {
   Time now_{0};
 };
 
-constexpr int kFrames = 5000;
+constexpr int kFaultFrames = 5000;
 
 TEST(BusFaultTest, ChangesNothingWithoutFaults) {
   FaultyBus bus({});
   for (const auto& frames : {bus.sent(200), bus.received(200)}) {
     ASSERT_EQ(frames.size(), 200U);
-    for (int k = 0; k < 200; ++k) EXPECT_EQ(frames[static_cast<std::size_t>(k)], numbered(k));
+    for (int k = 0; k < 200; ++k) EXPECT_EQ(frames[static_cast<std::size_t>(k)], counted_frame(k));
   }
 }
 
 TEST(BusFaultTest, LosesTheShareOfFramesThatItSaysInEachDirection) {
-  const double deviation = 3.0 * std::sqrt(kFrames * 0.2 * 0.8);
+  const double deviation = 3.0 * std::sqrt(kFaultFrames * 0.2 * 0.8);
   FaultyBus bus({{.drop = 0.2}, {.drop = 0.2}});
-  EXPECT_NEAR(static_cast<double>(bus.sent(kFrames).size()), 0.8 * kFrames, deviation);
-  EXPECT_NEAR(static_cast<double>(bus.received(kFrames).size()), 0.8 * kFrames, deviation);
+  EXPECT_NEAR(static_cast<double>(bus.sent(kFaultFrames).size()), 0.8 * kFaultFrames, deviation);
+  EXPECT_NEAR(static_cast<double>(bus.received(kFaultFrames).size()), 0.8 * kFaultFrames, deviation);
 }
 
 TEST(BusFaultTest, MakesTheSameDecisionsAsALineOfItsSeedAndName) {
@@ -103,14 +103,14 @@ TEST(BusFaultTest, MakesTheSameDecisionsAsALineOfItsSeedAndName) {
 
 TEST(BusFaultTest, SpoilsFramesButHandsOnOnlyWhatABusCanCarry) {
   FaultyBus bus({{.corrupt = 0.05}, {}});
-  const std::vector<CanFrame> frames = bus.sent(kFrames);
+  const std::vector<CanFrame> frames = bus.sent(kFaultFrames);
   int spoilt = 0;
   for (const CanFrame& frame : frames) {
     EXPECT_TRUE(can::is_sendable(frame));
     spoilt += frame.identifier != kIdentifier || frame.size != 2 ? 1 : 0;
   }
-  EXPECT_GT(spoilt, kFrames / 20);
-  EXPECT_LT(frames.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_GT(spoilt, kFaultFrames / 20);
+  EXPECT_LT(frames.size(), static_cast<std::size_t>(kFaultFrames));
 }
 
 TEST(BusFaultTest, InsertsFramesThatNobodySentAndSendsFramesTwice) {
@@ -123,7 +123,7 @@ TEST(BusFaultTest, InsertsFramesThatNobodySentAndSendsFramesTwice) {
 
 TEST(BusFaultTest, DelaysReordersAndStandsStill) {
   FaultyBus late({{.latency = milliseconds(20)}, {}});
-  late.fault().send(numbered(1));
+  late.fault().send(counted_frame(1));
   for (int k = 0; k < 19; ++k) late.advance();
   EXPECT_FALSE(late.peer().receive());
   late.advance();
@@ -138,7 +138,7 @@ TEST(BusFaultTest, DelaysReordersAndStandsStill) {
 
   FaultyBus still({});
   still.fault().stand_still(milliseconds(50));
-  still.fault().send(numbered(1));
+  still.fault().send(counted_frame(1));
   for (int k = 0; k < 49; ++k) still.advance();
   EXPECT_FALSE(still.peer().receive());
   still.advance();
@@ -151,14 +151,14 @@ TEST(BusFaultTest, IsDownWhileItIsCutAndUpAgainByItself) {
   bus.fault().hang_up(milliseconds(11));
   EXPECT_EQ(bus.fault().state(), BusState::kDown);
   EXPECT_EQ(bus.fault().take_event()->kind, BusEventKind::kDown);
-  EXPECT_FALSE(bus.fault().send(numbered(1)));
-  bus.peer().send(numbered(2));
+  EXPECT_FALSE(bus.fault().send(counted_frame(1)));
+  bus.peer().send(counted_frame(2));
   for (int k = 0; k < 9; ++k) bus.advance();
   EXPECT_FALSE(bus.fault().take_event());
   bus.advance();
   EXPECT_EQ(bus.fault().take_event()->kind, BusEventKind::kUp);
   EXPECT_FALSE(bus.fault().receive());
-  EXPECT_TRUE(bus.fault().send(numbered(3)));
+  EXPECT_TRUE(bus.fault().send(counted_frame(3)));
   bus.advance();
   EXPECT_EQ(number_of(bus.peer().receive()->frame), 3);
 }

@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(Lines, ByteStreamTest,
 
 // ---- serial ports ----
 
-std::string refusal(SerialPort port) {
+std::string refusal_of_port(SerialPort port) {
   try {
     port.open();
   } catch (const LinkError& error) {
@@ -176,7 +176,7 @@ std::string refusal(SerialPort port) {
 }
 
 TEST(SerialPortTest, SaysWhichPortsThereAreWhenTheOneNamedIsMissing) {
-  EXPECT_THAT(refusal(SerialPort({"/dev/ttyACM_none", 921600})),
+  EXPECT_THAT(refusal_of_port(SerialPort({"/dev/ttyACM_none", 921600})),
               testing::AllOf(HasSubstr("/dev/ttyACM_none: there is no such port; "),
                              testing::AnyOf(HasSubstr("there are: /dev/"), HasSubstr("is the cable in?"))));
 }
@@ -184,8 +184,8 @@ TEST(SerialPortTest, SaysWhichPortsThereAreWhenTheOneNamedIsMissing) {
 TEST(SerialPortTest, RefusesWhatIsNoSerialPort) {
   const fs::path file = folder() / "file";
   std::ofstream(file) << "text";
-  EXPECT_THAT(refusal(SerialPort({file.string(), 921600})), HasSubstr("it is not a serial port; "));
-  EXPECT_THAT(refusal(SerialPort({file.parent_path().string(), 921600})),
+  EXPECT_THAT(refusal_of_port(SerialPort({file.string(), 921600})), HasSubstr("it is not a serial port; "));
+  EXPECT_THAT(refusal_of_port(SerialPort({file.parent_path().string(), 921600})),
               HasSubstr("it is not a serial port; "));
   std::ifstream in(file);
   std::string text;
@@ -197,7 +197,7 @@ TEST(SerialPortTest, RefusesAPortThatAnotherHas) {
   const PseudoTerminal terminal;
   SerialPort first({terminal.device(), 115200});
   first.open();
-  EXPECT_THAT(refusal(SerialPort({terminal.device(), 115200})), HasSubstr("another program uses it"));
+  EXPECT_THAT(refusal_of_port(SerialPort({terminal.device(), 115200})), HasSubstr("another program uses it"));
 }
 
 // Most programs ask for no lock.
@@ -208,7 +208,7 @@ TEST(SerialPortTest, RefusesAPortThatAnotherHasWithoutALock) {
   int process = 0;
   ASSERT_EQ(fscanf(other, "%d", &process), 1);
   EXPECT_THAT(
-      refusal(SerialPort({terminal.device(), 115200})),
+      refusal_of_port(SerialPort({terminal.device(), 115200})),
       HasSubstr(terminal.device() + ": process " + std::to_string(process) + " (s"));  // sh, soon sleep
   kill(process, SIGKILL);
   pclose(other);

@@ -9,8 +9,8 @@
 namespace ironbird::hil_bridge::virtual_fcu {
 namespace {
 
-constexpr float kDt = 0.0025F;
-constexpr float kRoundOff = 1e-6F;  // of float32 at magnitudes near one
+constexpr float kControlDt = 0.0025F;
+constexpr float kControlRoundOff = 1e-6F;  // of float32 at magnitudes near one
 
 class AttitudeControllerTest : public ::testing::Test {
  protected:
@@ -30,7 +30,7 @@ class AttitudeControllerTest : public ::testing::Test {
     command.u[kPitch].kind = pitch;
     command.u[kYaw].kind = yaw;
   }
-  std::array<float, 10> run(bool armed = true, float dt = kDt) {
+  std::array<float, 10> run(bool armed = true, float dt = kControlDt) {
     return controller.run(command, attitude, dt, armed);
   }
 
@@ -44,8 +44,8 @@ TEST_F(AttitudeControllerTest, TurnsAnglesIntoTorquesDampedByTheGyro) {
   command.u[kRoll].value = 0.25F;
   command.u[kPitch].value = 0.05F;
   const std::array<float, 10> u = run();
-  EXPECT_NEAR(u[kRoll], 0.15F * (0.25F - 0.1F) - 0.05F * 0.3F, kRoundOff);
-  EXPECT_NEAR(u[kPitch], 0.15F * (0.05F + 0.2F) + 0.05F * 0.4F, kRoundOff);
+  EXPECT_NEAR(u[kRoll], 0.15F * (0.25F - 0.1F) - 0.05F * 0.3F, kControlRoundOff);
+  EXPECT_NEAR(u[kPitch], 0.15F * (0.05F + 0.2F) + 0.05F * 0.4F, kControlRoundOff);
 }
 
 TEST_F(AttitudeControllerTest, TurnsRatesIntoTorques) {
@@ -54,9 +54,9 @@ TEST_F(AttitudeControllerTest, TurnsRatesIntoTorques) {
   command.u[kPitch].value = 2.0F;
   command.u[kYaw].value = -1.0F;
   const std::array<float, 10> u = run();
-  EXPECT_NEAR(u[kRoll], 0.07F * (1.0F - 0.3F), kRoundOff);
-  EXPECT_NEAR(u[kPitch], 0.07F * (2.0F + 0.4F), kRoundOff);
-  EXPECT_NEAR(u[kYaw], 0.25F * (-1.0F - 0.5F), kRoundOff);
+  EXPECT_NEAR(u[kRoll], 0.07F * (1.0F - 0.3F), kControlRoundOff);
+  EXPECT_NEAR(u[kPitch], 0.07F * (2.0F + 0.4F), kControlRoundOff);
+  EXPECT_NEAR(u[kYaw], 0.25F * (-1.0F - 0.5F), kControlRoundOff);
 }
 
 TEST_F(AttitudeControllerTest, LetsPassThroughValuesPassAndAddsEquilibriumTorques) {
@@ -69,7 +69,7 @@ TEST_F(AttitudeControllerTest, LetsPassThroughValuesPassAndAddsEquilibriumTorque
   const std::array<float, 10> u = run();
   for (std::size_t i = 0; i < 10; ++i) {
     const float added = i == kRoll ? 0.01F : i == kPitch ? 0.02F : i == kYaw ? 0.03F : 0.0F;
-    EXPECT_NEAR(u[i], 0.1F * static_cast<float>(i) + added, kRoundOff) << i;
+    EXPECT_NEAR(u[i], 0.1F * static_cast<float>(i) + added, kControlRoundOff) << i;
   }
 }
 
@@ -94,11 +94,13 @@ TEST_F(AttitudeControllerTest, GivesEveryLoopItsOwnGains) {
     rebuild();
     command.u[row.axis] = {.value = 0.4F, .kind = row.kind, .active = true};
     command.u[kForceZ].value = 0.5F;
-    EXPECT_NEAR(run()[row.axis], 0.5F * 0.4F + 2.0F * 0.4F * kDt, kRoundOff) << loop << " P and I";
+    EXPECT_NEAR(run()[row.axis], 0.5F * 0.4F + 2.0F * 0.4F * kControlDt, kControlRoundOff)
+        << loop << " P and I";
     // A rate that jumps to 0.2 rad/s: the angle loops take it as it is, the others differentiate it.
     attitude.w_NB_B = {0.2F, 0.2F, 0.2F};
     command.u[row.axis].value = row.kind == ChannelKind::kRate ? 0.2F : 0.0F;
-    const float derivative = row.kind == ChannelKind::kRate ? 2.0F / (2.0F * 0.05F + kDt) * 0.2F : 0.2F;
+    const float derivative =
+        row.kind == ChannelKind::kRate ? 2.0F / (2.0F * 0.05F + kControlDt) * 0.2F : 0.2F;
     EXPECT_NEAR(run(false)[row.axis], -0.3F * derivative, 1e-5F) << loop << " D";
   }
 }
@@ -123,12 +125,12 @@ TEST_F(AttitudeControllerTest, ScalesThrottleByTheGreatestThrottleAndTurnsItUp) 
   command.u[kForceX].value = 0.2F;
   command.u[kForceZ].value = 0.5F;
   std::array<float, 10> u = run();
-  EXPECT_NEAR(u[kForceX], 0.2F * 0.7F, kRoundOff);
-  EXPECT_NEAR(u[kForceZ], -0.5F * 0.7F, kRoundOff);
+  EXPECT_NEAR(u[kForceX], 0.2F * 0.7F, kControlRoundOff);
+  EXPECT_NEAR(u[kForceZ], -0.5F * 0.7F, kControlRoundOff);
   parameters.set(parameter("USE_MOTOR_PARAM"), 1);
   rebuild();
   u = run();
-  EXPECT_NEAR(u[kForceZ] / controller.maximum_thrust(), -0.35F, kRoundOff);
+  EXPECT_NEAR(u[kForceZ] / controller.maximum_thrust(), -0.35F, kControlRoundOff);
 }
 
 TEST_F(AttitudeControllerTest, IntegratesOnlyArmedWithThrottleAndShortSteps) {
@@ -142,10 +144,10 @@ TEST_F(AttitudeControllerTest, IntegratesOnlyArmedWithThrottleAndShortSteps) {
   command.u[kForceZ].value = 0.2F;
   EXPECT_EQ(run(false)[kRoll], 0.0F) << "not armed";
   EXPECT_EQ(run(true, 0.01F)[kRoll], 0.0F) << "dt must be below 10 ms";
-  EXPECT_NEAR(run()[kRoll], 2.0F * kDt, kRoundOff);
-  EXPECT_NEAR(run()[kRoll], 4.0F * kDt, kRoundOff);
+  EXPECT_NEAR(run()[kRoll], 2.0F * kControlDt, kControlRoundOff);
+  EXPECT_NEAR(run()[kRoll], 4.0F * kControlDt, kControlRoundOff);
   EXPECT_EQ(run(false)[kRoll], 0.0F) << "the term drops out";
-  EXPECT_NEAR(run()[kRoll], 6.0F * kDt, kRoundOff) << "and jumps back in";
+  EXPECT_NEAR(run()[kRoll], 6.0F * kControlDt, kControlRoundOff) << "and jumps back in";
 }
 
 TEST_F(AttitudeControllerTest, KeepsIntegralsWhenGainsChange) {
@@ -157,7 +159,7 @@ TEST_F(AttitudeControllerTest, KeepsIntegralsWhenGainsChange) {
   parameters.set(parameter("PID_ROLL_ANG_P"), 0.0F);
   parameters.set(parameter("PID_ROLL_ANG_D"), 0.0F);
   rebuild();
-  EXPECT_NEAR(run()[kRoll], 2.0F * kDt, kRoundOff);
+  EXPECT_NEAR(run()[kRoll], 2.0F * kControlDt, kControlRoundOff);
 }
 
 TEST_F(AttitudeControllerTest, DoesNotIntegrateInPassThroughThrustBecauseUpIsNegative) {
@@ -180,7 +182,7 @@ TEST_F(AttitudeControllerTest, BandLimitsTheDerivativeOfARate) {
   const double ratio = (2.0 * 0.05 - 0.0025) / (2.0 * 0.05 + 0.0025);
   double expected = 0.0;
   for (int k = 1; k <= 40; ++k) {
-    attitude.w_NB_B.z = 4.0F * kDt * static_cast<float>(k);
+    attitude.w_NB_B.z = 4.0F * kControlDt * static_cast<float>(k);
     expected = 4.0 + (expected - 4.0) * ratio;
     ASSERT_NEAR(run()[kYaw], -expected, 1e-4);
   }
@@ -194,7 +196,7 @@ TEST_F(AttitudeControllerTest, HasNoDerivativeInAStepOfATenthOfAMillisecond) {
   attitude.w_NB_B.z = 3.0F;
   EXPECT_EQ(run(true, 0.0001F)[kYaw], 0.0F);
   attitude.w_NB_B.z = 3.0F;
-  EXPECT_EQ(run(true, kDt)[kYaw], 0.0F) << "the short step remembered the rate";
+  EXPECT_EQ(run(true, kControlDt)[kYaw], 0.0F) << "the short step remembered the rate";
 }
 
 TEST_F(AttitudeControllerTest, HasNoLimit) {
@@ -207,9 +209,9 @@ TEST_F(AttitudeControllerTest, FindsTheTorquesOfALevelVehicleForTheTrim) {
   command.u[kRoll].value = 0.1F;
   command.u[kYaw].value = 0.2F;
   const std::array<float, 3> torques = controller.trim(command);
-  EXPECT_NEAR(torques[0], 0.015F, kRoundOff);
+  EXPECT_NEAR(torques[0], 0.015F, kControlRoundOff);
   EXPECT_EQ(torques[1], 0.0F);
-  EXPECT_NEAR(torques[2], 0.05F, kRoundOff);
+  EXPECT_NEAR(torques[2], 0.05F, kControlRoundOff);
 }
 
 }  // namespace

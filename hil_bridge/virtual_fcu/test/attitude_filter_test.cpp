@@ -14,7 +14,7 @@ using Quaternion = Eigen::Quaterniond;
 using Vector3 = Eigen::Vector3d;
 
 constexpr std::uint64_t kTickUs = 2500;
-constexpr double kDt = 0.0025;
+constexpr double kFilterDt = 0.0025;
 constexpr double kG = 9.80665;
 // A second of float32 steps: each rounds by 6e-8, gains near 1 let 400 of them add up to a few 1e-6.
 constexpr double kSinglePrecision = 1e-5;
@@ -52,7 +52,7 @@ class ReferenceFilter {
     }
     const double boost = t < s_.init_s ? 10.0 : 1.0;
     if (boost > 1.0) kp = 10.0 * s_.acc_kp;
-    b_ -= boost * s_.ki * error * kDt;
+    b_ -= boost * s_.ki * error * kFilterDt;
     Vector3 smooth = w_;
     if (s_.quadratic) {
       smooth = (5.0 * w_ + 8.0 * w1_ - w2_) / 12.0;
@@ -69,9 +69,9 @@ class ReferenceFilter {
  private:
   void propagate(const Vector3& w) {
     if (w.norm() == 0.0) return;
-    const double half = 0.5 * w.norm() * kDt;
+    const double half = 0.5 * w.norm() * kFilterDt;
     const double c = s_.closed_form ? std::cos(half) : 1.0;
-    const double s = s_.closed_form ? std::sin(half) / w.norm() : 0.5 * kDt;
+    const double s = s_.closed_form ? std::sin(half) / w.norm() : 0.5 * kFilterDt;
     Quaternion n = q_;
     const Quaternion old = q_;
     // Which earlier components a component sees: its own updated ones, or the old ones.
@@ -110,7 +110,7 @@ class AttitudeFilterTest : public ::testing::Test {
       return Triple{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
     };
     filter.step({.stamp_us = now_us, .acceleration = single(f), .angular_velocity = single(w)},
-                static_cast<float>(kDt));
+                static_cast<float>(kFilterDt));
   }
   /// A vigorous, smooth motion: rates of radians per second and accelerations inside and outside the margin.
   static Vector3 wild_rate(double t) {
@@ -123,7 +123,7 @@ class AttitudeFilterTest : public ::testing::Test {
   double distance_to(ReferenceFilter& reference) {
     double worst = 0.0;
     for (int k = 1; k <= 400; ++k) {
-      const double t = k * kDt;
+      const double t = k * kFilterDt;
       const Vector3 f = wild_force(t);
       const Vector3 w = wild_rate(t);
       step(f, w);
@@ -208,7 +208,7 @@ TEST_F(AttitudeFilterTest, TurnsHeadingByTheIntegralOfTheGyroAlone) {
   for (int k = 0; k < 400; ++k) step({0, 0, -kG}, {0.0, 0.0, 0.5});
   // The low pass and the smoothing start from rest: 0.3/0.7 and 0.5 steps behind.
   constexpr double kLagSteps = 0.3 / 0.7 + 0.5;
-  EXPECT_NEAR(filter.attitude().heading(), 0.5 * kDt * (400.0 - kLagSteps), 1e-4);
+  EXPECT_NEAR(filter.attitude().heading(), 0.5 * kFilterDt * (400.0 - kLagSteps), 1e-4);
 }
 
 TEST_F(AttitudeFilterTest, LeansTowardsTheAccelerometer) {
@@ -270,7 +270,7 @@ TEST_F(AttitudeFilterTest, FollowsAnExternalAttitudeInHeadingToo) {
   // First correction by hand: X and Y rows each contribute sin(0.3) about z, one step after the start.
   filter.set_external(turned);
   step({0, 0, -kG}, Vector3::Zero());
-  EXPECT_NEAR(filter.attitude().heading(), 1.5 * 2.0 * std::sin(heading) * kDt, 2e-5);
+  EXPECT_NEAR(filter.attitude().heading(), 1.5 * 2.0 * std::sin(heading) * kFilterDt, 2e-5);
   for (int k = 0; k < 2000; ++k) {
     filter.set_external(turned);
     step({0, 0, -kG}, Vector3::Zero());
@@ -284,7 +284,7 @@ TEST_F(AttitudeFilterTest, WeighsAnExternalAttitudeByTheTimeSinceTheLast) {
   for (int k = 0; k < 9; ++k) step({0, 0, -kG}, Vector3::Zero());
   filter.set_external({static_cast<float>(std::cos(0.05)), 0, 0, static_cast<float>(std::sin(0.05))});
   step({0, 0, -kG}, Vector3::Zero());  // ten steps after the start
-  EXPECT_NEAR(filter.attitude().heading(), 10.0 * 1.5 * 2.0 * std::sin(0.1) * kDt, 2e-5);
+  EXPECT_NEAR(filter.attitude().heading(), 10.0 * 1.5 * 2.0 * std::sin(0.1) * kFilterDt, 2e-5);
   const float once = filter.attitude().heading();
   step({0, 0, -kG}, Vector3::Zero());
   EXPECT_NEAR(filter.attitude().heading(), once, 2e-5) << "it acts in one step only";
@@ -297,9 +297,9 @@ TEST_F(AttitudeFilterTest, TakesTenfoldAccelerometerGainsForAnExternalAttitudeTo
   filter.set_external({static_cast<float>(std::cos(0.15)), 0, 0, static_cast<float>(std::sin(0.15))});
   step({0, 0, -kG}, Vector3::Zero());
   const double error = 2.0 * std::sin(0.3);  // X and Y rows; positive: the estimate must turn on
-  EXPECT_NEAR(filter.bias().z, -10.0 * 0.02 * error * kDt, 1e-7);
-  EXPECT_NEAR(filter.attitude().heading(), (10.0 * 0.4 * error - static_cast<double>(filter.bias().z)) * kDt,
-              1e-6);
+  EXPECT_NEAR(filter.bias().z, -10.0 * 0.02 * error * kFilterDt, 1e-7);
+  EXPECT_NEAR(filter.attitude().heading(),
+              (10.0 * 0.4 * error - static_cast<double>(filter.bias().z)) * kFilterDt, 1e-6);
 }
 
 TEST_F(AttitudeFilterTest, FollowsAnExternalRollAndPitch) {

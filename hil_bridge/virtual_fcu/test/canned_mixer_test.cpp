@@ -12,7 +12,7 @@
 namespace ironbird::hil_bridge::virtual_fcu {
 namespace {
 
-constexpr float kSvd = 1e-5F;  // float32 singular-value decomposition of a 10 x 10 matrix
+constexpr float kCannedSvd = 1e-5F;  // float32 singular-value decomposition of a 10 x 10 matrix
 
 /// One mixer before its inversion: motors from pin 0 on, yaw alternating from +1.
 struct Table {
@@ -109,10 +109,10 @@ TEST_P(CannedMixerTest, IsAPseudoInverse) {
     }
   }
   // The four conditions of Moore and Penrose.
-  EXPECT_LT((a * p * a - a).cwiseAbs().maxCoeff(), kSvd);
-  EXPECT_LT((p * a * p - p).cwiseAbs().maxCoeff(), 2.0 * kSvd);
-  EXPECT_LT((a * p - (a * p).transpose()).cwiseAbs().maxCoeff(), kSvd);
-  EXPECT_LT((p * a - (p * a).transpose()).cwiseAbs().maxCoeff(), kSvd);
+  EXPECT_LT((a * p * a - a).cwiseAbs().maxCoeff(), kCannedSvd);
+  EXPECT_LT((p * a * p - p).cwiseAbs().maxCoeff(), 2.0 * kCannedSvd);
+  EXPECT_LT((a * p - (a * p).transpose()).cwiseAbs().maxCoeff(), kCannedSvd);
+  EXPECT_LT((p * a - (p * a).transpose()).cwiseAbs().maxCoeff(), kCannedSvd);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CannedMixerTest, ::testing::Range(0, 11));

@@ -5,7 +5,7 @@
 namespace ironbird::hil_bridge::virtual_fcu {
 namespace {
 
-constexpr std::uint32_t kFrameMs = 10;
+constexpr std::uint32_t kMuxFrameMs = 10;
 
 class CommandMuxTest : public ::testing::Test {
  protected:
@@ -28,7 +28,7 @@ class CommandMuxTest : public ::testing::Test {
     mux.rebuild_failsafe(parameters);
   }
   void update() {
-    rc.decode(frame, now += kFrameMs, false);
+    rc.decode(frame, now += kMuxFrameMs, false);
     mux.update(rc, now);
   }
   void command(std::uint8_t mode, std::array<float, 10> u, std::uint16_t ignore = 0) {
@@ -157,7 +157,7 @@ TEST_F(CommandMuxTest, TakesOneAxisPerDeviatedStickAndHoldsItForTheLag) {
   EXPECT_EQ(mux.combined().u[kRoll].value, 0.1F);
   frame.channels[1] = 0.5F;
   const std::uint32_t deviated = now;
-  while (now + kFrameMs < deviated + 1000) {
+  while (now + kMuxFrameMs < deviated + 1000) {
     command(0, kForces);
     update();
     ASSERT_EQ(mux.overrides(), 0x008) << now - deviated;

@@ -11,7 +11,7 @@ namespace {
 using namespace rosflight;
 using virtual_fcu::parameter;
 
-constexpr Time kTick = std::chrono::microseconds(2500);
+constexpr Time kHostTick = std::chrono::microseconds(2500);
 
 VirtualFcuConfig quad() {
   VirtualFcuConfig config;
@@ -29,7 +29,7 @@ class Bench {
 
   void tick(int count = 1) {
     for (int k = 0; k < count; ++k) {
-      const Time now = host.now() + kTick;
+      const Time now = host.now() + kHostTick;
       simulator::Readings readings;
       readings.imu = simulator::ImuReading{.taken = now, .f_B = {0.0, 0.0, -9.80665}};
       host.tick(readings, now);
@@ -89,7 +89,7 @@ TEST(FirmwareHostTest, ObeysOneTickLaterWithASinglePass) {
 
 TEST(FirmwareHostTest, ObeysLaterByTheUplinkLatency) {
   VirtualFcuConfig config = quad();
-  config.uplink_latency = 3 * kTick;
+  config.uplink_latency = 3 * kHostTick;
   EXPECT_EQ(ticks_until_obeyed(config), 4);
 }
 
@@ -108,12 +108,12 @@ TEST(FirmwareHostTest, WaitsForTheNextRcFrame) {
 TEST(FirmwareHostTest, DeliversTelemetryAfterTheDownlinkLatency) {
   for (const int late : {0, 2}) {
     VirtualFcuConfig config = quad();
-    config.downlink_latency = late * kTick;
+    config.downlink_latency = late * kHostTick;
     Bench bench(config);
     bench.tick(10);
     const auto imus = bench.arrivals<SmallImu>();
     ASSERT_EQ(imus.size(), static_cast<std::size_t>(10 - late));
-    EXPECT_EQ(imus[0].when, (1 + late) * kTick);
+    EXPECT_EQ(imus[0].when, (1 + late) * kHostTick);
     EXPECT_EQ(std::get<SmallImu>(imus[0].message).time_boot_us, 2500U);
   }
 }
@@ -156,7 +156,7 @@ TEST(FirmwareHostTest, HoldsItsOutputsThroughAnImuDropout) {
   bench.hand_over();
   bench.host.send(thrust(0.5F));
   bench.tick(4);
-  for (int k = 0; k < 100; ++k) bench.host.tick({}, bench.host.now() + kTick);
+  for (int k = 0; k < 100; ++k) bench.host.tick({}, bench.host.now() + kHostTick);
   EXPECT_NEAR(bench.throttle(), 0.5, 1e-5);
 }
 
@@ -202,7 +202,7 @@ TEST(FirmwareHostTest, RefusesAConfigurationThatMakesNoSense) {
         BadConfig{"rc_rate",
                   [](VirtualFcuConfig& c) { c.rc_rate = std::numeric_limits<double>::quiet_NaN(); }},
         BadConfig{"uplink_latency", [](VirtualFcuConfig& c) { c.uplink_latency = Time(1); }},
-        BadConfig{"downlink_latency", [](VirtualFcuConfig& c) { c.downlink_latency = -kTick; }},
+        BadConfig{"downlink_latency", [](VirtualFcuConfig& c) { c.downlink_latency = -kHostTick; }},
         BadConfig{"pwm_resolution", [](VirtualFcuConfig& c) { c.pwm_resolution = -1.0; }},
         BadConfig{"parameters.NOPE", [](VirtualFcuConfig& c) {
                     c.parameters.push_back({"NOPE", 1.0});

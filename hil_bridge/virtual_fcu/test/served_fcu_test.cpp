@@ -20,7 +20,7 @@ namespace {
 using rosflight::Address;
 using rosflight::Frame;
 
-constexpr Time kTick = std::chrono::microseconds(2500);
+constexpr Time kServedTick = std::chrono::microseconds(2500);
 constexpr Address kCompanion{37, 50};
 constexpr std::uint8_t kFirmware = 250;
 
@@ -47,7 +47,7 @@ class ServedFcuTest : public testing::Test {
   void pass(int ticks) {
     for (int k = 0; k < ticks; ++k) {
       served_.take();
-      unit_.advance(unit_.now() + kTick);
+      unit_.advance(unit_.now() + kServedTick);
       served_.give();
     }
   }
@@ -103,7 +103,7 @@ TEST_F(ServedFcuTest, SignsTextsThatItHeldBackWithTheLowByteOfItsClock) {
   pass(20);
   ASSERT_TRUE(heard_of<rosflight::Statustext>().empty());
   say(rosflight::Heartbeat{});
-  const Time connected = unit_.now() + kTick;
+  const Time connected = unit_.now() + kServedTick;
   pass(1);
   const std::vector<Frame> texts = heard_of<rosflight::Statustext>();
   ASSERT_FALSE(texts.empty());

@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Verbs, ExamplesTest,
                          ::testing::Values("run", "check", "report", "video", "snapshot", "topics"),
                          [](const auto& tested) { return std::string(tested.param); });
 
-constexpr const char* kMission =
+constexpr const char* kThreeSeconds =
     "duration = \"3 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n[[check]]\nname = \"c\"\nnone_of_events = "
     "[\"lifted_off\"]\n";
 
@@ -104,7 +104,7 @@ class TerminalTest : public ::testing::Test {
  protected:
   const TemporaryFolder folder_;
   const std::string fly_ =
-      kProgram + " run " + folder_.write("short.toml", kMission) + " --no-log --out " + folder_.text();
+      kProgram + " run " + folder_.write("short.toml", kThreeSeconds) + " --no-log --out " + folder_.text();
 };
 
 TEST_F(TerminalTest, APersonSeesABarAndColours) {

@@ -11,10 +11,9 @@
 namespace ironbird::scenarios {
 namespace {
 
-constexpr const char* kMission =
+constexpr const char* kEightSeconds =
     "duration = \"8 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n[[check]]\nname = \"c\"\nhappens = "
     "\"autopilot.flight.fcu.armed\"\n";
-constexpr const char* kEndless = "duration = \"20 h\"\n[[waypoint]]\np_N = [0, 0, -5]\n";
 // More than the head of a log takes (about 60 kB of schemas), so that a run this far has records behind it,
 // however slow the machine or the build.
 constexpr const char* kBytesOfARunUnderWay = "1000000";
@@ -34,7 +33,7 @@ class DiskTest : public ::testing::Test {
   }
 
   const TemporaryFolder folder_;
-  const std::string file_ = folder_.write("short.toml", kMission);
+  const std::string file_ = folder_.write("short.toml", kEightSeconds);
   const std::filesystem::path out_ = folder_ / "out";
 };
 

@@ -15,10 +15,9 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 
-constexpr const char* kMission =
+constexpr const char* kTwoSeconds =
     "duration = \"2 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n[[check]]\nname = \"c\"\nnone_of_events = "
     "[\"lifted_off\"]\n";
-constexpr const char* kEndless = "duration = \"20 h\"\n[[waypoint]]\np_N = [0, 0, -5]\n";
 const std::string kFaulty = "'" FAULTY_PROGRAM "'";
 
 std::string slurp(const std::filesystem::path& file) {
@@ -37,14 +36,14 @@ class ManyRunsTest : public ::testing::Test {
   }
 
   const TemporaryFolder folder_;
-  const std::string good_ = folder_.write("good.toml", kMission);
+  const std::string good_ = folder_.write("good.toml", kTwoSeconds);
   const std::string out_ = (folder_ / "out").string();
   const std::string junit_ = (folder_ / "junit.xml").string();
   const std::string json_ = (folder_ / "out.json").string();
 };
 
 std::string with_estimator(const char* kind) {
-  return std::string(kMission) + "[autopilot.estimator]\nkind = \"" + kind + "\"\n";
+  return std::string(kTwoSeconds) + "[autopilot.estimator]\nkind = \"" + kind + "\"\n";
 }
 
 struct FaultCase {
@@ -85,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return std::string(tested.param.kind); });
 
 TEST_F(ManyRunsTest, AScenarioThatCannotBeLoadedDoesNotKeepTheOthersFromFlying) {
-  const std::string bad = folder_.write("bad.toml", std::string("seed = -1\n") + kMission);
+  const std::string bad = folder_.write("bad.toml", std::string("seed = -1\n") + kTwoSeconds);
   const Said said = fly(kProgram, bad);
   EXPECT_EQ(said.exit_code, 2);
   EXPECT_THAT(said.text, HasSubstr("bad.toml:1:"));
@@ -182,7 +181,7 @@ TEST_F(ManyRunsTest, ShowOneLineOfProgressOnATerminal) {
 }
 
 TEST_F(ManyRunsTest, SummariesDoNotMixScenarios) {
-  const std::string other = folder_.write("other.toml", kMission);
+  const std::string other = folder_.write("other.toml", kTwoSeconds);
   const Said said =
       run_shell(kProgram + " run " + good_ + " " + other + " --seed 1:2 --jobs 2 --no-log --out " + out_);
   EXPECT_EQ(said.exit_code, 0) << said.text;

@@ -17,6 +17,9 @@
 
 namespace ironbird::scenarios {
 
+/// A scenario that only a signal ends.
+inline constexpr const char* kEndless = "duration = \"20 h\"\n[[waypoint]]\np_N = [0, 0, -5]\n";
+
 /// What a command left behind: exit code and everything that it said.
 struct Said {
   int exit_code = -1;

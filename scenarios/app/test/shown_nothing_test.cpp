@@ -11,7 +11,7 @@
 namespace ironbird::scenarios {
 namespace {
 
-const std::string kMission =
+const std::string kUpright =
     "duration = \"8 s\"\n[[waypoint]]\np_N = [0, 0, -5]\n"
     "[[check]]\nname = \"stays upright\"\nsignal = \"truth.roll\"\nstays_within = { low = \"-30 deg\", high "
     "= "
@@ -38,24 +38,24 @@ class ShownNothingTest : public ::testing::Test {
 
 TEST_F(ShownNothingTest, AVehicleThatNeverLeavesTheGroundDoesNotPass) {
   expect(
-      fly(kMission, " --set pilot.take_off_at=60"), 5,
+      fly(kUpright, " --set pilot.take_off_at=60"), 5,
       "flight: inconclusive: the vehicle never left the ground; if it should not, say so: none_of_events = "
       "[\"lifted_off\"]");
 }
 
 TEST_F(ShownNothingTest, AVehicleThatLeavesTheGroundDoes) {
-  expect(fly(kMission), 0, "flight: pass\n");
+  expect(fly(kUpright), 0, "flight: pass\n");
 }
 
 TEST_F(ShownNothingTest, AVehicleThatShouldStayOnTheGroundPassesWhenItDoes) {
-  const std::string stays = kMission + "[[check]]\nname = \"stays\"\nnone_of_events = [\"lifted_off\"]\n";
+  const std::string stays = kUpright + "[[check]]\nname = \"stays\"\nnone_of_events = [\"lifted_off\"]\n";
   expect(fly(stays, " --set pilot.take_off_at=60"), 0,
          "flight: pass: stays: margin -: lifted_off at no time");
   expect(fly(stays), 1, "flight: fail: stays: margin -: lifted_off at 5.4");
 }
 
 TEST_F(ShownNothingTest, AWordAboutAPartOfTheRunIsNoneAboutTheFlight) {
-  const std::string stays = kMission +
+  const std::string stays = kUpright +
                             "[[check]]\nname = \"stays\"\nuntil = \"2 s\"\nnone_of_events = "
                             "[\"lifted_off\"]\n";
   expect(fly(stays, " --set pilot.take_off_at=60"), 5, "the vehicle never left the ground");
@@ -63,7 +63,7 @@ TEST_F(ShownNothingTest, AWordAboutAPartOfTheRunIsNoneAboutTheFlight) {
 
 TEST_F(ShownNothingTest, AnEventWhoseOccasionNeverCameLeavesNoPass) {
   const std::string words = "event \"late\" waited for \"lost\", which never happened";
-  expect(fly(kMission + kLate), 5, "flight: inconclusive: " + words);
+  expect(fly(kUpright + kLate), 5, "flight: inconclusive: " + words);
   EXPECT_NE(verdict_file().find("event \\\"late\\\" waited for"), std::string::npos) << verdict_file();
 }
 
@@ -72,51 +72,51 @@ TEST_F(ShownNothingTest, AnEventAtTheEndOrBehindItLeavesNoPass) {
     return "[[event]]\nname = \"gust\"\nat = \"" + time + " s\"\nfault = \"wind\"\nvector = [1, 0, 0]\n";
   };
   for (const std::string time : {"9", "8"}) {
-    expect(fly(kMission + gust_at(time)), 5,
+    expect(fly(kUpright + gust_at(time)), 5,
            "event \"gust\" was due at " + time +
                " s, when the run was over; if it need not come, say so: optional = true");
     EXPECT_EQ(verdict_file().find("\"text\": \"gust\""), std::string::npos) << verdict_file();
   }
-  expect(fly(kMission + gust_at("7.99")), 0, "flight: pass\n");
+  expect(fly(kUpright + gust_at("7.99")), 0, "flight: pass\n");
   EXPECT_NE(verdict_file().find("\"text\": \"gust\""), std::string::npos) << verdict_file();
 }
 
 TEST_F(ShownNothingTest, APictureOfTheEndIsTaken) {
-  const Said said = fly(kMission + "[[snapshot]]\nname = \"end\"\nat = \"8 s\"\ncamera = \"chase\"\n");
+  const Said said = fly(kUpright + "[[snapshot]]\nname = \"end\"\nat = \"8 s\"\ncamera = \"chase\"\n");
   expect(said, 0, "flight: pass\n");
   EXPECT_EQ(said.text.find("warning"), std::string::npos) << said.text;
 }
 
 TEST_F(ShownNothingTest, AnEventThatNeedNotComeDoesNotMatter) {
-  expect(fly(kMission + kLate + "optional = true\n"), 0, "flight: pass\n");
+  expect(fly(kUpright + kLate + "optional = true\n"), 0, "flight: pass\n");
 }
 
 TEST_F(ShownNothingTest, ARefusedRequestLeavesNoPass) {
-  const std::string asks = kMission + "[[event]]\nat = \"7 s\"\nrequest = \"resume\"\n";
+  const std::string asks = kUpright + "[[event]]\nat = \"7 s\"\nrequest = \"resume\"\n";
   expect(fly(asks), 5, "flight: inconclusive: request at 7 s was refused: resume: it is neither");
   const std::string named = asks + "[[check]]\nname = \"refuses\"\norder_of_events = [\"refused\"]\n";
   expect(fly(named), 0, "flight: pass\n");
 }
 
 TEST_F(ShownNothingTest, SeveralRunsSayItToo) {
-  const std::string other = folder_.write("other.toml", kMission + kLate);
-  const Said said = fly(kMission, " " + other + " --jobs 2");
+  const std::string other = folder_.write("other.toml", kUpright + kLate);
+  const Said said = fly(kUpright, " " + other + " --jobs 2");
   expect(said, 5, "other: inconclusive\n  event \"late\" waited for \"lost\", which never happened");
 }
 
 TEST_F(ShownNothingTest, TheTakeOffOfAVehicleThatNeedsNoneIsNoMatter) {
-  expect(fly(kMission, " --set autopilot.controller.take_off_on_arming=true --set pilot.take_off_at=3"), 0,
+  expect(fly(kUpright, " --set autopilot.controller.take_off_on_arming=true --set pilot.take_off_at=3"), 0,
          "flight: warning: request at 3 s was refused: take_off: the vehicle is not armed\n");
 }
 
 TEST_F(ShownNothingTest, AFailureStaysAFailure) {
-  expect(fly(kMission + kLate, " --set check[0].stays_within.high='\"-20 deg\"'"), 1,
+  expect(fly(kUpright + kLate, " --set check[0].stays_within.high='\"-20 deg\"'"), 1,
          "flight: fail: event \"late\" waited");
 }
 
 TEST_F(ShownNothingTest, APictureNotTakenAndAnEndThatWasWaitedForAreWarnings) {
   const Said said =
-      fly("end_after = \"landed\"\n" + kMission + "[[snapshot]]\nname = \"down\"\nafter = \"landed\"\n");
+      fly("end_after = \"landed\"\n" + kUpright + "[[snapshot]]\nname = \"down\"\nafter = \"landed\"\n");
   expect(said, 0,
          "flight: warning: snapshot \"down\" waited for \"landed\", which never happened: not taken\n");
   expect(said, 0, "flight: warning: the end of the run waited for \"landed\", which never happened\n");

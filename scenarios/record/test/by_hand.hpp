@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -27,6 +29,12 @@ inline std::string u32(std::uint64_t value) {
 }
 inline std::string u64(std::uint64_t value) {
   return number(value, 8);
+}
+inline std::string f64(double value) {
+  return u64(std::bit_cast<std::uint64_t>(value));
+}
+inline std::string pad(int count) {
+  return std::string(static_cast<std::size_t>(count), '\0');
 }
 inline std::string text(const std::string& value) {
   return u32(value.size()) + value;

@@ -12,19 +12,15 @@
 namespace ironbird::scenarios {
 namespace {
 
+using by_hand::f64;
+using by_hand::pad;
 using by_hand::u16;
 using by_hand::u32;
 using by_hand::u64;
 using by_hand::u8;
 
-std::string f64(double value) {
-  return u64(std::bit_cast<std::uint64_t>(value));
-}
 std::string f32(float value) {
   return u32(std::bit_cast<std::uint32_t>(value));
-}
-std::string pad(int count) {
-  return std::string(static_cast<std::size_t>(count), '\0');
 }
 
 const std::string kHeader("\0\1\0\0", 4);
@@ -111,24 +107,24 @@ TEST(CdrTest, KeepsItsMemoryOnceItHasSeenTheLargestMessage) {
   }
 }
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
+std::span<const std::uint8_t> message_in(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 TEST(CdrDecoderTest, ReadsEveryKindOfMemberBack) {
-  EXPECT_EQ(encoded(decode_cdr<samples::Everything>(bytes_of(filled_by_hand()))), filled_by_hand());
+  EXPECT_EQ(encoded(decode_cdr<samples::Everything>(message_in(filled_by_hand()))), filled_by_hand());
 }
 
 TEST(CdrDecoderTest, ReadsWhatIsAbsentAndEmptyBack) {
   const std::string nothing = encoded(samples::Everything{});
-  EXPECT_EQ(encoded(decode_cdr<samples::Everything>(bytes_of(nothing))), nothing);
+  EXPECT_EQ(encoded(decode_cdr<samples::Everything>(message_in(nothing))), nothing);
 }
 
 TEST(CdrDecoderTest, RefusesEveryTruncationAndWhatIsTooLong) {
   const std::string whole = filled_by_hand();
   for (std::size_t size = 0; size < whole.size(); ++size)
-    EXPECT_THROW(decode_cdr<samples::Everything>(bytes_of(whole.substr(0, size))), UserError) << size;
-  EXPECT_THROW(decode_cdr<samples::Everything>(bytes_of(whole + u8(0))), UserError);
+    EXPECT_THROW(decode_cdr<samples::Everything>(message_in(whole.substr(0, size))), UserError) << size;
+  EXPECT_THROW(decode_cdr<samples::Everything>(message_in(whole + u8(0))), UserError);
 }
 
 TEST(CdrDecoderTest, NeverEndsOtherwiseThanWithAValueOrARefusal) {
@@ -138,8 +134,8 @@ TEST(CdrDecoderTest, NeverEndsOtherwiseThanWithAValueOrARefusal) {
       bytes[at] = static_cast<char>(damage);
       try {
         // What is taken says the same when it is written again.
-        const auto value = decode_cdr<samples::Everything>(bytes_of(bytes));
-        EXPECT_EQ(encoded(decode_cdr<samples::Everything>(bytes_of(encoded(value)))), encoded(value)) << at;
+        const auto value = decode_cdr<samples::Everything>(message_in(bytes));
+        EXPECT_EQ(encoded(decode_cdr<samples::Everything>(message_in(encoded(value)))), encoded(value)) << at;
       } catch (const UserError&) {
       }
     }
@@ -159,7 +155,7 @@ struct Chosen {
 TEST(CdrDecoderTest, RefusesNamesAndKindsThatThereAreNot) {
   const auto refusal = [](const std::string& bytes) {
     try {
-      decode_cdr<Chosen>(bytes_of(kHeader + bytes));
+      decode_cdr<Chosen>(message_in(kHeader + bytes));
     } catch (const UserError& error) {
       return std::string(error.what());
     }

@@ -19,13 +19,6 @@ using ::testing::IsNan;
 
 const std::string kLittle("\0\1\0\0", 4);
 
-std::string f64(double value) {
-  return u64(std::bit_cast<std::uint64_t>(value));
-}
-std::string pad(int count) {
-  return std::string(static_cast<std::size_t>(count), '\0');
-}
-
 struct Columns {
   std::vector<std::string> fields;
   std::map<std::string, std::vector<double>, std::less<>> numbers;

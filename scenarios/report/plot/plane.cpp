@@ -10,18 +10,18 @@ namespace ironbird::scenarios::plot {
 
 namespace {
 
-constexpr double kLeft = 58.0;      // px: numbers and name of the y axis
-constexpr double kRight = 16.0;     // px
-constexpr double kTop = 10.0;       // px
-constexpr double kBottom = 46.0;    // px: numbers and name of the x axis
-constexpr double kNearer = 0.35;    // px: points closer than this to the one before are not drawn
-constexpr double kLeastSpan = 1.0;  // in the plane's unit
+constexpr double kPlaneLeft = 58.0;    // px: numbers and name of the y axis
+constexpr double kPlaneRight = 16.0;   // px
+constexpr double kTop = 10.0;          // px
+constexpr double kPlaneBottom = 46.0;  // px: numbers and name of the x axis
+constexpr double kNearer = 0.35;       // px: points closer than this to the one before are not drawn
+constexpr double kLeastSpan = 1.0;     // in the plane's unit
 
 /// Two axes of one scale, centred on what is drawn.
 struct Frame {
   Axis x;
   Axis y;
-  double left = kLeft, right = 0.0, top = kTop, bottom = 0.0;
+  double left = kPlaneLeft, right = 0.0, top = kTop, bottom = 0.0;
 
   Point pixel(const Point& p) const {
     return {left + (p.x - x.low) / (x.high - x.low) * (right - left),
@@ -47,8 +47,8 @@ Frame frame_of(const Plane& plane) {
     y.include(place.point.y);
   }
   Frame frame;
-  frame.right = plane.width - kRight;
-  frame.bottom = plane.height - kBottom;
+  frame.right = plane.width - kPlaneRight;
+  frame.bottom = plane.height - kPlaneBottom;
   const double wide = frame.right - frame.left, tall = frame.bottom - frame.top;
   constexpr double kAir = 1.12;
   const double per_pixel =

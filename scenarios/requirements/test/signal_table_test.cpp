@@ -16,7 +16,7 @@
 namespace ironbird::scenarios {
 namespace {
 
-constexpr double kRoundOff = 1e-12;
+constexpr double kSignalRoundOff = 1e-12;
 
 class SignalTableTest : public ::testing::Test {
  protected:
@@ -101,9 +101,9 @@ TEST_F(SignalTableTest, GivesTheAnglesOfAnAttitude) {
   truth_.q_NB = Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) *
                 Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
                 Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
-  EXPECT_NEAR(value("truth.roll"), roll, kRoundOff);
-  EXPECT_NEAR(value("truth.pitch"), pitch, kRoundOff);
-  EXPECT_NEAR(value("truth.heading"), heading, kRoundOff);
+  EXPECT_NEAR(value("truth.roll"), roll, kSignalRoundOff);
+  EXPECT_NEAR(value("truth.pitch"), pitch, kSignalRoundOff);
+  EXPECT_NEAR(value("truth.heading"), heading, kSignalRoundOff);
   EXPECT_TRUE(table_.find("truth.heading").is_angle());
   // The estimate has angles of its own; they are not replaced.
   signals_.estimate.heading = 1.25;
@@ -146,7 +146,7 @@ TEST_F(SignalTableTest, SubtractsAnglesTheShortWay) {
   signals_.trajectory.heading = -3.1;
   signals_.estimate.heading = 3.1;
   const Subject error(table_.find("autopilot.estimate.heading"), table_.find("autopilot.trajectory.heading"));
-  EXPECT_NEAR(error.magnitude(), 6.2 - 2.0 * std::numbers::pi, kRoundOff);
+  EXPECT_NEAR(error.magnitude(), 6.2 - 2.0 * std::numbers::pi, kSignalRoundOff);
 }
 
 TEST_F(SignalTableTest, RefusesDifferencesOfUnlikeThings) {
@@ -167,7 +167,7 @@ TEST_P(ConditionTest, HasTheMarginOfItsComparison) {
   signals_.trajectory.reached = 3;
   signals_.flight.phase = autopilot::FlightPhase::kOffboard;
   const Condition condition = Condition::read(GetParam().text, table_);
-  EXPECT_NEAR(condition.margin(), GetParam().margin, kRoundOff);
+  EXPECT_NEAR(condition.margin(), GetParam().margin, kSignalRoundOff);
   // At equality only the sign is left.
   if (GetParam().margin == 0.0) {
     EXPECT_NE(condition.margin(), 0.0);

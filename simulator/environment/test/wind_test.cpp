@@ -182,11 +182,11 @@ TEST(GustsTest, DoNotDependOnTheStep) {
   GustParams params{.amplitude = 2.0, .amplitude_spread = 0.5};
   Gusts coarse(params, {1.0, 0.0, 0.0}, 13);
   Gusts fine(params, {1.0, 0.0, 0.0}, 13);
-  constexpr double kRounding = 1e-9;
+  constexpr double kStepRounding = 1e-9;
   for (int i = 0; i < 4000; ++i) {
     coarse.advance(0.015625);
     for (int k = 0; k < 4; ++k) fine.advance(0.00390625);
-    ASSERT_LT((coarse.wind_N() - fine.wind_N()).norm(), kRounding);
+    ASSERT_LT((coarse.wind_N() - fine.wind_N()).norm(), kStepRounding);
   }
 }
 

@@ -15,7 +15,7 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
-constexpr Time kTick = microseconds(2500);
+constexpr Time kSuiteTick = microseconds(2500);
 const FaultState kNoFaults;
 
 /// Every source of noise switched on.
@@ -46,7 +46,7 @@ SensorSuiteParams noisy() {
 /// Position tells the time: p_N.x = tick.
 Truth truth_at(int tick) {
   Truth truth;
-  truth.stamp = tick * kTick;
+  truth.stamp = tick * kSuiteTick;
   truth.p_NB_N = Vector3(tick, 0.0, -3.0);
   return truth;
 }
@@ -56,11 +56,11 @@ using FaultsAt = std::function<FaultState(int)>;
 std::vector<Readings> run(
     const SensorSuiteParams& params, int ticks, std::uint64_t seed = 1,
     const FaultsAt& faults_at = [](int) { return FaultState{}; }) {
-  SensorSuite suite(params, SensorSite{}, kTick, seed);
+  SensorSuite suite(params, SensorSite{}, kSuiteTick, seed);
   std::vector<Readings> out;
   for (int tick = 1; tick <= ticks; ++tick) {
     Readings readings;
-    suite.sample(truth_at(tick), tick * kTick, faults_at(tick), readings);
+    suite.sample(truth_at(tick), tick * kSuiteTick, faults_at(tick), readings);
     out.push_back(readings);
   }
   return out;
@@ -109,14 +109,14 @@ TEST(SensorSuiteTest, DeliversEachSensorAtItsRate) {
 TEST(SensorSuiteTest, DeliversLateByExactlyTheLatency) {
   for (const int late_ticks : {0, 1, 7, 40, 41, 100}) {
     SensorSuiteParams params;
-    params.gnss.timing.latency = late_ticks * seconds(kTick);
+    params.gnss.timing.latency = late_ticks * seconds(kSuiteTick);
     const std::vector<Readings> out = run(params, 400);
     for (int tick = 1; tick <= 400; ++tick) {
       const std::optional<GnssReading>& gnss = out[static_cast<std::size_t>(tick - 1)].gnss;
       const int taken = tick - late_ticks;
       ASSERT_EQ(gnss.has_value(), taken > 0 && taken % 40 == 0) << tick << " late " << late_ticks;
       if (!gnss) continue;
-      EXPECT_EQ(gnss->taken, taken * kTick);
+      EXPECT_EQ(gnss->taken, taken * kSuiteTick);
       constexpr double kRoundOffOfMetres = 2e-9;
       EXPECT_NEAR((gnss->latitude - SensorSite{}.latitude) * kEarthRadius, taken, kRoundOffOfMetres);
     }
@@ -127,7 +127,7 @@ TEST(SensorSuiteTest, RefusesALatencyLongerThanItsDelayLine) {
   SensorSuiteParams params;
   params.imu.timing.latency = 0.5;
   try {
-    SensorSuite(params, SensorSite{}, kTick, 1);
+    SensorSuite(params, SensorSite{}, kSuiteTick, 1);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& refusal) {
     EXPECT_THAT(refusal.what(), HasSubstr("sensors.imu.timing.latency = 0.5 s"));
@@ -138,7 +138,7 @@ TEST(SensorSuiteTest, RefusesARateThatIsNoWholeNumberOfTicks) {
   SensorSuiteParams params;
   params.barometer.timing.rate = 60.0;
   try {
-    SensorSuite(params, SensorSite{}, kTick, 1);
+    SensorSuite(params, SensorSite{}, kSuiteTick, 1);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& refusal) {
     EXPECT_THAT(refusal.what(), HasSubstr("sensors.barometer.timing.rate = 60 Hz"));
@@ -151,9 +151,9 @@ TEST(SensorSuiteTest, RefusesNumbersOutsideTheirBounds) {
   negative.imu.gyro.noise_density = -1.0;
   not_a_number.gnss.horizontal.full_scale = std::nan("");
   crossed.range_finder.minimum = 10.0;
-  EXPECT_THROW(SensorSuite(negative, SensorSite{}, kTick, 1), std::invalid_argument);
-  EXPECT_THROW(SensorSuite(not_a_number, SensorSite{}, kTick, 1), std::invalid_argument);
-  EXPECT_THROW(SensorSuite(crossed, SensorSite{}, kTick, 1), std::invalid_argument);
+  EXPECT_THROW(SensorSuite(negative, SensorSite{}, kSuiteTick, 1), std::invalid_argument);
+  EXPECT_THROW(SensorSuite(not_a_number, SensorSite{}, kSuiteTick, 1), std::invalid_argument);
+  EXPECT_THROW(SensorSuite(crossed, SensorSite{}, kSuiteTick, 1), std::invalid_argument);
   EXPECT_THROW(SensorSuite(SensorSuiteParams{}, SensorSite{}, Time::zero(), 1), std::invalid_argument);
 }
 
@@ -226,7 +226,7 @@ TEST(SensorSuiteTest, DeliversNanDuringANonFiniteFault) {
   EXPECT_TRUE(std::isnan(readings.baro->pressure));
   EXPECT_TRUE(std::isnan(readings.gnss->latitude));
   EXPECT_TRUE(readings.gnss->v_NB_N.array().isNaN().all());
-  EXPECT_EQ(readings.imu->taken, 40 * kTick);
+  EXPECT_EQ(readings.imu->taken, 40 * kSuiteTick);
   EXPECT_TRUE(std::isfinite(readings.airspeed->differential_pressure));
 }
 

@@ -20,7 +20,7 @@ constexpr double kGravity = 9.80665;
 constexpr double kPeriod = 0.0025;
 constexpr double kRoundOff = 1e-12;
 constexpr Time kNow = std::chrono::milliseconds(250);
-const FaultState kNoFaults;
+const FaultState kNoSensorFaults;
 
 Truth at_rest() {
   Truth truth;
@@ -30,7 +30,7 @@ Truth at_rest() {
 
 TEST(ImuTest, ReadsMinusGravityAtRest) {
   Imu imu(ImuParams{}, SensorSite{}, kPeriod, 1);
-  const ImuReading reading = imu.measure(at_rest(), kNow, kNoFaults, true);
+  const ImuReading reading = imu.measure(at_rest(), kNow, kNoSensorFaults, true);
   EXPECT_EQ(reading.f_B, Vector3(0.0, 0.0, -kGravity));
   EXPECT_EQ(reading.w_NB_B, Vector3(Vector3::Zero()));
   EXPECT_EQ(reading.taken, kNow);
@@ -43,7 +43,7 @@ TEST(ImuTest, FeelsTheCentripetalAndTheTangentialAccelerationOfItsLeverArm) {
   truth.w_NB_B = Vector3(0.0, 0.0, 3.0);
   truth.w_dot_NB_B = Vector3(0.0, 0.0, 5.0);
   Imu imu(params, SensorSite{}, kPeriod, 1);
-  const Vector3 extra = imu.measure(truth, kNow, kNoFaults, true).f_B - truth.f_B;
+  const Vector3 extra = imu.measure(truth, kNow, kNoSensorFaults, true).f_B - truth.f_B;
   // On a turntable: w^2 r towards the axis, w_dot r along the turn.
   EXPECT_NEAR(extra.x(), -9.0 * 0.2, kRoundOff);
   EXPECT_NEAR(extra.y(), 5.0 * 0.2, kRoundOff);
@@ -64,7 +64,7 @@ TEST(ImuTest, AgreesWithThePathOfItsPointInATumble) {
   Truth truth;  // falls freely: no specific force at the centre of mass
   truth.w_NB_B = w_B;
   Imu imu(params, SensorSite{}, kPeriod, 1);
-  EXPECT_NEAR((imu.measure(truth, kNow, kNoFaults, true).f_B - a_N).norm(), 0.0, kDifferenceTolerance);
+  EXPECT_NEAR((imu.measure(truth, kNow, kNoSensorFaults, true).f_B - a_N).norm(), 0.0, kDifferenceTolerance);
 }
 
 TEST(ImuTest, ReadsInItsOwnAxes) {
@@ -73,7 +73,7 @@ TEST(ImuTest, ReadsInItsOwnAxes) {
   Truth truth = at_rest();
   truth.w_NB_B = Vector3(0.1, 0.2, 0.3);
   Imu imu(params, SensorSite{}, kPeriod, 1);
-  const Vector3 w_S = imu.measure(truth, kNow, kNoFaults, true).w_NB_B;
+  const Vector3 w_S = imu.measure(truth, kNow, kNoSensorFaults, true).w_NB_B;
   EXPECT_NEAR((w_S - Vector3(0.2, -0.1, 0.3)).norm(), 0.0, kRoundOff);
 }
 
@@ -96,7 +96,7 @@ TEST(ImuTest, ShakesWithTheSquareOfRotorSpeed) {
     fast.rotor_speed[static_cast<std::size_t>(rotor)] = 600.0;
   }
   Imu still_imu(params, SensorSite{}, kPeriod, 1);
-  EXPECT_EQ(still_imu.measure(at_rest(), kNow, kNoFaults, true).f_B, at_rest().f_B);
+  EXPECT_EQ(still_imu.measure(at_rest(), kNow, kNoSensorFaults, true).f_B, at_rest().f_B);
 
   constexpr int kSamples = 20000;
   constexpr double kFiveSigma = 0.025;  // 5 / sqrt(2 * kSamples)
@@ -104,7 +104,7 @@ TEST(ImuTest, ShakesWithTheSquareOfRotorSpeed) {
     Imu imu(params, SensorSite{}, kPeriod, 1);
     double sum = 0.0;
     for (int i = 0; i < kSamples; ++i) {
-      const double x = imu.measure(truth, kNow, kNoFaults, true).f_B.x();
+      const double x = imu.measure(truth, kNow, kNoSensorFaults, true).f_B.x();
       sum += x * x;
     }
     return std::sqrt(sum / kSamples);
@@ -118,8 +118,8 @@ TEST(ImuTest, HasWhiteNoiseOnlyWhileArmedWhenAskedTo) {
   params.noise_only_when_armed = true;
   params.accelerometer.noise_sigma = 0.2;
   Imu imu(params, SensorSite{}, kPeriod, 1);
-  EXPECT_EQ(imu.measure(at_rest(), kNow, kNoFaults, false).f_B, at_rest().f_B);
-  EXPECT_NE(imu.measure(at_rest(), kNow, kNoFaults, true).f_B, at_rest().f_B);
+  EXPECT_EQ(imu.measure(at_rest(), kNow, kNoSensorFaults, false).f_B, at_rest().f_B);
+  EXPECT_NE(imu.measure(at_rest(), kNow, kNoSensorFaults, true).f_B, at_rest().f_B);
 }
 
 TEST(ImuTest, ReadsExactlyGravityBelowTheRestSpeedWhenAskedTo) {
@@ -133,9 +133,9 @@ TEST(ImuTest, ReadsExactlyGravityBelowTheRestSpeedWhenAskedTo) {
   truth.v_NB_N = Vector3(0.03, 0.03, 0.0);
   Imu imu(params, site, kPeriod, 1);
   const Vector3 expected(0.0, -9.81 * std::sin(0.3), -9.81 * std::cos(0.3));
-  EXPECT_NEAR((imu.measure(truth, kNow, kNoFaults, true).f_B - expected).norm(), 0.0, kRoundOff);
+  EXPECT_NEAR((imu.measure(truth, kNow, kNoSensorFaults, true).f_B - expected).norm(), 0.0, kRoundOff);
   truth.v_NB_N = Vector3(0.06, 0.0, 0.0);
-  EXPECT_EQ(imu.measure(truth, kNow, kNoFaults, true).f_B, truth.f_B);
+  EXPECT_EQ(imu.measure(truth, kNow, kNoSensorFaults, true).f_B, truth.f_B);
 }
 
 TEST(MagnetometerTest, SeesTheEarthsFieldTurnAgainstTheVehicle) {
@@ -144,7 +144,7 @@ TEST(MagnetometerTest, SeesTheEarthsFieldTurnAgainstTheVehicle) {
   Truth truth;
   truth.q_NB = Quaternion(AngleAxis(std::numbers::pi / 2.0, Vector3::UnitZ()));  // heads east
   Magnetometer magnetometer(MagnetometerParams{}, site, 0.01, 1);
-  const Vector3 m_B = magnetometer.measure(truth, kNow, kNoFaults, true).m_B;
+  const Vector3 m_B = magnetometer.measure(truth, kNow, kNoSensorFaults, true).m_B;
   EXPECT_NEAR((m_B - Vector3(0.0, -20e-6, 45e-6)).norm(), 0.0, kRoundOff * 50e-6);
 }
 
@@ -172,7 +172,7 @@ TEST(BarometerTest, ReadsTheStandardAtmosphereAtTheHomesAltitude) {
   truth.p_NB_N.z() = -500.0;
   Barometer barometer(BarometerParams{}, site, 0.02, 1);
   // U.S. Standard Atmosphere 1976, table: 1500 m geometric, 84 560 Pa (five digits).
-  EXPECT_NEAR(barometer.measure(truth, kNow, kNoFaults, true).pressure, 84560.0, 5.0);
+  EXPECT_NEAR(barometer.measure(truth, kNow, kNoSensorFaults, true).pressure, 84560.0, 5.0);
 }
 
 TEST(BarometerTest, RepeatsTheReferenceFormulaWhenAskedTo) {
@@ -185,7 +185,7 @@ TEST(BarometerTest, RepeatsTheReferenceFormulaWhenAskedTo) {
   Barometer barometer(params, site, 0.01, 1);
   const double expected = 101325.0 * std::exp(5.2553 * std::log(1.0 - 2.25694e-5 * 1400.0));
   constexpr double kRoundOffOfLogarithm = 1e-8;
-  EXPECT_NEAR(barometer.measure(truth, kNow, kNoFaults, true).pressure, expected, kRoundOffOfLogarithm);
+  EXPECT_NEAR(barometer.measure(truth, kNow, kNoSensorFaults, true).pressure, expected, kRoundOffOfLogarithm);
 }
 
 TEST(BarometerTest, IsDisturbedByWashWindAndFaults) {
@@ -195,7 +195,7 @@ TEST(BarometerTest, IsDisturbedByWashWindAndFaults) {
   Truth truth;
   truth.air_density = 1.1;
   Barometer barometer(params, SensorSite{}, 0.02, 1);
-  const double still = barometer.measure(truth, kNow, kNoFaults, true).pressure;
+  const double still = barometer.measure(truth, kNow, kNoSensorFaults, true).pressure;
   truth.rotor_speed = {400.0, 400.0, 500.0, 500.0};
   truth.v_NB_N = Vector3(3.0, 0.0, 0.0);
   truth.wind_N = Vector3(0.0, 4.0, 0.0);
@@ -215,7 +215,7 @@ TEST(GnssTest, PutsMetresOnTheSphereTheAutopilotUses) {
   truth.p_NB_N = Vector3(100.0, -200.0, -30.0);
   truth.v_NB_N = Vector3(1.0, 2.0, 3.0);
   Gnss gnss(GnssParams{}, site, 0.1, 1);
-  const GnssReading reading = gnss.measure(truth, kNow, kNoFaults, true);
+  const GnssReading reading = gnss.measure(truth, kNow, kNoSensorFaults, true);
   constexpr double kRoundOffOfMetres = 2e-9;
   EXPECT_NEAR((reading.latitude - 0.7) * 6378145.0, 100.0, kRoundOffOfMetres);
   EXPECT_NEAR((reading.longitude + 1.9) * 6378145.0 * std::cos(0.7), -200.0, kRoundOffOfMetres);
@@ -231,7 +231,7 @@ TEST(GnssTest, StaysWithinHalfATurnAtTheDateLine) {
   truth.p_NB_N.y() = 50.0;
   Gnss gnss(GnssParams{}, site, 0.1, 1);
   const double beyond = 50.0 / kEarthRadius - 1e-6;
-  EXPECT_NEAR(gnss.measure(truth, kNow, kNoFaults, true).longitude, -std::numbers::pi + beyond, 1e-14);
+  EXPECT_NEAR(gnss.measure(truth, kNow, kNoSensorFaults, true).longitude, -std::numbers::pi + beyond, 1e-14);
 }
 
 TEST(GnssTest, MeasuresItsAntenna) {
@@ -241,7 +241,7 @@ TEST(GnssTest, MeasuresItsAntenna) {
   truth.q_NB = Quaternion(AngleAxis(std::numbers::pi / 2.0, Vector3::UnitZ()));  // heads east
   truth.w_NB_B = Vector3(0.0, 2.0, 0.0);                                         // pitches up at 2 rad/s
   Gnss gnss(params, SensorSite{}, 0.1, 1);
-  const GnssReading reading = gnss.measure(truth, kNow, kNoFaults, true);
+  const GnssReading reading = gnss.measure(truth, kNow, kNoSensorFaults, true);
   EXPECT_NEAR(reading.altitude, SensorSite{}.altitude + 0.5, kRoundOff * 2e3);
   // The antenna above moves backwards, to the west.
   EXPECT_NEAR((reading.v_NB_N - Vector3(0.0, -1.0, 0.0)).norm(), 0.0, kRoundOff);
@@ -272,7 +272,7 @@ TEST_P(RangeFinderTest, ReadsAlongItsAxisWithinItsLimits) {
   truth.p_NB_N.z() = -GetParam().height;
   truth.q_NB = Quaternion(AngleAxis(GetParam().roll, Vector3::UnitX()));
   RangeFinder range_finder(params, SensorSite{}, 0.05, 1);
-  EXPECT_NEAR(range_finder.measure(truth, kNow, kNoFaults, true).range, GetParam().expected, kRoundOff);
+  EXPECT_NEAR(range_finder.measure(truth, kNow, kNoSensorFaults, true).range, GetParam().expected, kRoundOff);
 }
 
 INSTANTIATE_TEST_SUITE_P(Poses, RangeFinderTest,
@@ -294,10 +294,10 @@ TEST(RangeFinderReferenceTest, ReadsTheHeightAndNoNoiseOutsideItsLimits) {
   Truth truth;
   truth.p_NB_N.z() = -9.0;
   RangeFinder range_finder(params, SensorSite{}, 0.05, 1);
-  EXPECT_EQ(range_finder.measure(truth, kNow, kNoFaults, true).range, 8.0);
+  EXPECT_EQ(range_finder.measure(truth, kNow, kNoSensorFaults, true).range, 8.0);
   truth.p_NB_N.z() = -3.0;
   truth.q_NB = Quaternion(AngleAxis(1.0, Vector3::UnitX()));
-  const double inside = range_finder.measure(truth, kNow, kNoFaults, true).range;
+  const double inside = range_finder.measure(truth, kNow, kNoSensorFaults, true).range;
   EXPECT_NE(inside, 3.0);
   EXPECT_NEAR(inside, 3.0, 5.0 * 0.03);
 }
@@ -310,12 +310,15 @@ TEST(AirspeedTest, MeasuresTheDynamicPressureAlongTheNose) {
   truth.wind_N = Vector3(0.0, -2.0, 0.0);
   AirspeedParams params;
   Airspeed airspeed(params, SensorSite{}, 0.01, 1);
-  EXPECT_NEAR(airspeed.measure(truth, kNow, kNoFaults, true).differential_pressure, 60.0, 60.0 * kRoundOff);
+  EXPECT_NEAR(airspeed.measure(truth, kNow, kNoSensorFaults, true).differential_pressure, 60.0,
+              60.0 * kRoundOff);
   truth.v_NB_N.y() = -12.0;
-  EXPECT_NEAR(airspeed.measure(truth, kNow, kNoFaults, true).differential_pressure, -60.0, 60.0 * kRoundOff);
+  EXPECT_NEAR(airspeed.measure(truth, kNow, kNoSensorFaults, true).differential_pressure, -60.0,
+              60.0 * kRoundOff);
   params.keeps_sign = false;
   Airspeed reference(params, SensorSite{}, 0.01, 1);
-  EXPECT_NEAR(reference.measure(truth, kNow, kNoFaults, true).differential_pressure, 60.0, 60.0 * kRoundOff);
+  EXPECT_NEAR(reference.measure(truth, kNow, kNoSensorFaults, true).differential_pressure, 60.0,
+              60.0 * kRoundOff);
 }
 
 TEST(BatteryMonitorTest, ReadsTheBatteryOrAFixedValue) {
@@ -325,11 +328,12 @@ TEST(BatteryMonitorTest, ReadsTheBatteryOrAFixedValue) {
   BatteryMonitorParams params;
   params.current.scale = 0.1;
   const BatteryReading reading =
-      BatteryMonitor(params, SensorSite{}, 0.1, 1).measure(truth, kNow, kNoFaults, true);
+      BatteryMonitor(params, SensorSite{}, 0.1, 1).measure(truth, kNow, kNoSensorFaults, true);
   EXPECT_EQ(reading.voltage, 22.2);
   EXPECT_NEAR(reading.current, 33.0, 33.0 * kRoundOff);
   params.fixed_voltage = 23.0;
-  EXPECT_EQ(BatteryMonitor(params, SensorSite{}, 0.1, 1).measure(truth, kNow, kNoFaults, true).voltage, 23.0);
+  EXPECT_EQ(BatteryMonitor(params, SensorSite{}, 0.1, 1).measure(truth, kNow, kNoSensorFaults, true).voltage,
+            23.0);
 }
 
 }  // namespace
