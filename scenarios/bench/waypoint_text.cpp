@@ -21,9 +21,9 @@ std::string rounded(double value, int decimals = 2) {
 std::string place_of(const autopilot::Waypoint& waypoint) {
   if (waypoint.geodetic) {
     const autopilot::GeodeticPosition& where = *waypoint.geodetic;
-    return "latitude " + rounded(where.latitude * kDegrees, kCentimetre) + " deg, longitude " +
-           rounded(where.longitude * kDegrees, kCentimetre) + " deg, altitude " + rounded(where.altitude) +
-           " m";
+    return "latitude " + rounded(where.latitude * kDegreesPerRadian, kCentimetre) + " deg, longitude " +
+           rounded(where.longitude * kDegreesPerRadian, kCentimetre) + " deg, altitude " +
+           rounded(where.altitude) + " m";
   }
   return "(" + rounded(waypoint.p_N.x()) + ", " + rounded(waypoint.p_N.y()) + ", " +
          rounded(waypoint.p_N.z()) + ") m";
@@ -36,7 +36,7 @@ std::string line_about(const autopilot::Waypoint& waypoint, std::size_t index) {
   for (const auto& [value, name] : enumerators(waypoint.kind)) {
     if (value == waypoint.kind) line += name;
   }
-  line += " at " + place_of(waypoint) + ", heading " + rounded(waypoint.heading * kDegrees) + " deg";
+  line += " at " + place_of(waypoint) + ", heading " + rounded(waypoint.heading * kDegreesPerRadian) + " deg";
   if (waypoint.speed > 0.0) line += ", at most " + rounded(waypoint.speed) + " m/s";
   if (waypoint.kind != autopilot::WaypointKind::kHold) return line;
   return line +

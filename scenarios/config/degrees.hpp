@@ -4,7 +4,7 @@
 
 namespace ironbird::scenarios {
 
-/// In a radian.
-inline constexpr double kDegrees = 180.0 / std::numbers::pi;
+/// Degrees in a radian.
+inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 }  // namespace ironbird::scenarios

@@ -65,7 +65,9 @@ std::string with_unit(const std::string& text, std::string_view unit) {
 /// The bounds of an angle again, as people know them.
 std::string in_degrees(const Allowed& allowed) {
   if (allowed.unit != "rad") return "";
-  const auto degrees = [](double angle) { return shortest(std::round(angle * kDegrees * 1e6) / 1e6); };
+  const auto degrees = [](double angle) {
+    return shortest(std::round(angle * kDegreesPerRadian * 1e6) / 1e6);
+  };
   return " (" + degrees(allowed.lower) + " and " + degrees(allowed.upper) + " deg)";
 }
 

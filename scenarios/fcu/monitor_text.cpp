@@ -72,7 +72,7 @@ Row link_row(const Monitored& unit) {
 
 void add_motion(const Monitored& unit, std::vector<Row>& rows) {
   if (const auto* attitude = unit.view.latest<AttitudeQuaternion>()) {
-    const autopilot::Vector3 angles = angles_of(*attitude) * kDegrees;
+    const autopilot::Vector3 angles = angles_of(*attitude) * kDegreesPerRadian;
     rows.push_back({"attitude", printed("roll %+7.2f  pitch %+7.2f  yaw %+7.2f deg", angles.x(), angles.y(),
                                         angles.z())});
     rows.push_back(
@@ -184,7 +184,7 @@ std::string monitor_line(const Monitored& unit) {
   if (const std::string silence = silence_of(unit); !silence.empty()) return when + silence;
   std::string text = when + state_row(unit).text;
   if (const auto* attitude = unit.view.latest<AttitudeQuaternion>()) {
-    const autopilot::Vector3 angles = angles_of(*attitude) * kDegrees;
+    const autopilot::Vector3 angles = angles_of(*attitude) * kDegreesPerRadian;
     text += printed("  roll %+.1f pitch %+.1f yaw %+.1f deg", angles.x(), angles.y(), angles.z());
   }
   if (const auto* outputs = unit.view.latest<RosflightOutputRaw>())

@@ -133,9 +133,9 @@ std::vector<Metric> Comparison::results() const {
                                      east_.rms(),
                                      down_.deviation(),
                                      velocity_.rms(),
-                                     kDegrees * roll_.rms(),
-                                     kDegrees * pitch_.rms(),
-                                     kDegrees * heading_.rms(),
+                                     kDegreesPerRadian * roll_.rms(),
+                                     kDegreesPerRadian * pitch_.rms(),
+                                     kDegreesPerRadian * heading_.rms(),
                                      share};
   std::vector<Metric> all = difference_metrics(recorded_.name);
   for (std::size_t k = 0; k < values.size(); ++k) all.at(k).value = values[k];

@@ -209,8 +209,8 @@ class CsvFlightReader {
                                          const Vector3& v_NB_N) {
     rosflight::RosflightGnss fix;
     fix.rosflight_timestamp = wire_stamp(measured);
-    fix.lat = where.x() * kDegrees;
-    fix.lon = where.y() * kDegrees;
+    fix.lat = where.x() * kDegreesPerRadian;
+    fix.lon = where.y() * kDegreesPerRadian;
     fix.height = static_cast<float>(where.z());
     fix.vel_n = static_cast<float>(v_NB_N.x());
     fix.vel_e = static_cast<float>(v_NB_N.y());

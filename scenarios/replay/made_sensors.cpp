@@ -23,8 +23,8 @@ namespace rosflight = hil_bridge::rosflight;
 rosflight::RosflightGnss message_of(const simulator::GnssReading& reading) {
   rosflight::RosflightGnss fix;
   fix.rosflight_timestamp = wire_stamp(reading.taken);
-  fix.lat = reading.latitude * kDegrees;
-  fix.lon = reading.longitude * kDegrees;
+  fix.lat = reading.latitude * kDegreesPerRadian;
+  fix.lon = reading.longitude * kDegreesPerRadian;
   fix.height = static_cast<float>(reading.altitude);
   fix.vel_n = static_cast<float>(reading.v_NB_N.x());
   fix.vel_e = static_cast<float>(reading.v_NB_N.y());

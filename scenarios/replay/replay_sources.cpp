@@ -48,7 +48,7 @@ Declination declination_of(const FlightArguments& arguments, const OpenedFlight&
     if (!named || std::abs(*named) > 180.0)
       throw ConfigError("--declination " + arguments.declination +
                         ": must be an angle in degrees, east positive");
-    return {*named / kDegrees, "as named"};
+    return {*named / kDegreesPerRadian, "as named"};
   }
   if (!opened.field) return {0.0, "0, for there is no place to ask for"};
   if (!opened.dated)
@@ -80,7 +80,7 @@ class OpenedSource final : public ReplaySource {
   LoadedScenario load(const PilotChoice& choice, const autopilot::Modules& modules) const override {
     auto settings = choice.settings;
     settings.insert(settings.begin(), {"environment.magnetic_field.declination",
-                                       std::to_string(declination_.angle * kDegrees) + " deg"});
+                                       std::to_string(declination_.angle * kDegreesPerRadian) + " deg"});
     std::filesystem::path file = choice.scenario;
     if (file.empty()) file = find_named(kUsualScenario, search_folders(kUsualScenario));
     return load_scenario(file, {settings, std::nullopt}, modules);
@@ -108,7 +108,7 @@ class OpenedSource final : public ReplaySource {
         formatted("%s, %.1f s of IMU samples", opened_.flight.what.c_str(), to_seconds(opened_.flight.end))};
     for (const std::string& line : opened_.sensors) lines.push_back("  " + line);
     lines.push_back(formatted("  declination %+.2f deg (%s); fixes %.0f ms old on arrival",
-                              declination_.angle * kDegrees, declination_.source.c_str(),
+                              declination_.angle * kDegreesPerRadian, declination_.source.c_str(),
                               1e3 * opened_.gnss_delay));
     return lines;
   }

@@ -15,7 +15,7 @@ namespace ironbird::scenarios {
 
 namespace {
 
-constexpr std::uint8_t kMagic = 0xBC;
+constexpr std::uint8_t kUsdlogMagic = 0xBC;
 constexpr std::size_t kCheckSum = 4;  // bytes
 
 /// Takes values from bytes, little endian, until there are none: then nothing more.
@@ -103,7 +103,7 @@ std::optional<std::pair<std::string, char>> variable_of(const std::string& text)
 using Types = std::map<std::uint64_t, RecordType>;
 
 std::optional<Types> read_header(ByteReader& reader) {
-  if (reader.integer(1) != kMagic) return std::nullopt;
+  if (reader.integer(1) != kUsdlogMagic) return std::nullopt;
   const auto version = reader.integer(2);
   const auto count = reader.integer(2);
   if (!version || *version < 1 || *version > 2 || !count) return std::nullopt;

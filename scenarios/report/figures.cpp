@@ -104,7 +104,7 @@ plot::Panel axis_panel(const std::vector<ReportRun>& runs, const char* title, co
 }
 
 Curve degrees(const Curve& curve) {
-  return scaled(curve, kDegrees);
+  return scaled(curve, kDegreesPerRadian);
 }
 
 plot::Panel heading_panel(const std::vector<ReportRun>& runs) {
@@ -294,7 +294,7 @@ plot::TimeStack velocity_errors(const std::vector<ReportRun>& runs) {
 
 plot::TimeStack attitude_errors(const std::vector<ReportRun>& runs) {
   return error_stack(
-      runs, "Attitude error", "deg", kDegrees, 0.05, attitude_error,
+      runs, "Attitude error", "deg", kDegreesPerRadian, 0.05, attitude_error,
       {{{"roll", "sigma_attitude.x"}, {"pitch", "sigma_attitude.y"}, {"heading", "sigma_attitude.z"}}});
 }
 

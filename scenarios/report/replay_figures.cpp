@@ -166,7 +166,7 @@ constexpr std::array<Gated, 8> kGated{
      {"fix, velocity east", "m/s", "innovation_velocity_y", "gate_velocity_y", "rejected_velocity", 1.0, 0.1},
      {"fix, velocity down", "m/s", "innovation_velocity_z", "gate_velocity_z", "rejected_velocity", 1.0, 0.1},
      {"barometer", "Pa", "innovation_pressure", "gate_pressure", "rejected_baro", 1.0, 1.0},
-     {"compass", "deg", "innovation_heading", "gate_heading", "rejected_mag", kDegrees, 1.0}}};
+     {"compass", "deg", "innovation_heading", "gate_heading", "rejected_mag", kDegreesPerRadian, 1.0}}};
 
 /// "gate 8.2 to 8.9", the range of a gate that is there.
 std::string gate_text(const Curve& gate) {
@@ -211,7 +211,7 @@ struct Bias {
   double least_span;
 };
 constexpr std::array<Bias, 3> kBiases{
-    {{"gyro", "deg/s", {"gyro_bias", ""}, "sigma_gyro_bias", kDegrees, 0.01},
+    {{"gyro", "deg/s", {"gyro_bias", ""}, "sigma_gyro_bias", kDegreesPerRadian, 0.01},
      {"accelerometer",
       "m/s^2",
       {"accelerometer_offset", "accelerometer_bias"},
@@ -302,10 +302,11 @@ plot::TimeStack replayed_attitude(const std::vector<ReportRun>& runs) {
   constexpr std::array<const char*, 3> kNames{"roll", "pitch", "heading"};
   for (std::size_t k = 0; k < kNames.size(); ++k) {
     plot::Panel panel = panel_of(kNames[k], "deg", k == 2 ? 4.0 : 2.0);
-    add(panel, recorded_name(runs.front()), kRecordedStyle, broken_at_wraps(scaled(recorded[k], kDegrees)));
+    add(panel, recorded_name(runs.front()), kRecordedStyle,
+        broken_at_wraps(scaled(recorded[k], kDegreesPerRadian)));
     for (std::size_t i = 0; i < runs.size(); ++i)
       add(panel, label(runs, i), colour(i),
-          broken_at_wraps(scaled(estimate_of(runs[i], kNames[k]), kDegrees)));
+          broken_at_wraps(scaled(estimate_of(runs[i], kNames[k]), kDegreesPerRadian)));
     stack.panels.push_back(std::move(panel));
   }
   return stack;
@@ -320,15 +321,16 @@ plot::TimeStack replayed_differences(const std::vector<ReportRun>& runs) {
     double factor;
     double least_span;
   };
-  constexpr std::array<Row, 9> kRows{{{"north", "m", "p_N.x", "sigma_p_N.x", 1.0, 0.02},
-                                      {"east", "m", "p_N.y", "sigma_p_N.y", 1.0, 0.02},
-                                      {"down", "m", "p_N.z", "sigma_p_N.z", 1.0, 0.02},
-                                      {"velocity north", "m/s", "v_N.x", nullptr, 1.0, 0.02},
-                                      {"velocity east", "m/s", "v_N.y", nullptr, 1.0, 0.02},
-                                      {"velocity down", "m/s", "v_N.z", nullptr, 1.0, 0.02},
-                                      {"roll", "deg", "theta.x", "sigma_attitude.x", kDegrees, 0.1},
-                                      {"pitch", "deg", "theta.y", "sigma_attitude.y", kDegrees, 0.1},
-                                      {"heading", "deg", "theta.z", "sigma_attitude.z", kDegrees, 0.1}}};
+  constexpr std::array<Row, 9> kRows{
+      {{"north", "m", "p_N.x", "sigma_p_N.x", 1.0, 0.02},
+       {"east", "m", "p_N.y", "sigma_p_N.y", 1.0, 0.02},
+       {"down", "m", "p_N.z", "sigma_p_N.z", 1.0, 0.02},
+       {"velocity north", "m/s", "v_N.x", nullptr, 1.0, 0.02},
+       {"velocity east", "m/s", "v_N.y", nullptr, 1.0, 0.02},
+       {"velocity down", "m/s", "v_N.z", nullptr, 1.0, 0.02},
+       {"roll", "deg", "theta.x", "sigma_attitude.x", kDegreesPerRadian, 0.1},
+       {"pitch", "deg", "theta.y", "sigma_attitude.y", kDegreesPerRadian, 0.1},
+       {"heading", "deg", "theta.z", "sigma_attitude.z", kDegreesPerRadian, 0.1}}};
   plot::TimeStack stack{"Ours less the recorded one", {}, 1180.0, 84.0};
   for (const Row& row : kRows) {
     plot::Panel panel = panel_of(row.title, row.unit, row.least_span);

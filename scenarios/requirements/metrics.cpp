@@ -134,7 +134,7 @@ std::vector<Metric> RunMetrics::names_and_units() {
 void RunMetrics::append_estimate(std::vector<Metric>& out) const {
   const double north = position_[0].root(), east = position_[1].root(), down = position_[2].root();
   const double forward = velocity_[0].root(), right = velocity_[1].root(), below = velocity_[2].root();
-  const double roll = angles_[0].root() * kDegrees, pitch = angles_[1].root() * kDegrees;
+  const double roll = angles_[0].root() * kDegreesPerRadian, pitch = angles_[1].root() * kDegreesPerRadian;
   const std::string airborne = ", while airborne";
   const auto append = [&out](const char* name, double value, const char* unit, const std::string& meaning) {
     out.push_back({name, value, unit, meaning});
@@ -152,13 +152,14 @@ void RunMetrics::append_estimate(std::vector<Metric>& out) const {
   append("estimate_velocity_forward_rms_mps", forward, "m/s", "body velocity error, forward" + airborne);
   append("estimate_velocity_right_rms_mps", right, "m/s", "body velocity error, right" + airborne);
   append("estimate_velocity_down_rms_mps", below, "m/s", "body velocity error, down" + airborne);
-  append("estimate_attitude_rms_deg", attitude_.root() * kDegrees, "deg",
+  append("estimate_attitude_rms_deg", attitude_.root() * kDegreesPerRadian, "deg",
          "angle of the attitude error" + airborne);
   append("estimate_roll_pitch_rms_deg", worst({roll, pitch}), "deg",
          "the worse of roll and pitch" + airborne);
   append("estimate_roll_rms_deg", roll, "deg", "roll error" + airborne);
   append("estimate_pitch_rms_deg", pitch, "deg", "pitch error" + airborne);
-  append("estimate_heading_rms_deg", angles_[2].root() * kDegrees, "deg", "heading error" + airborne);
+  append("estimate_heading_rms_deg", angles_[2].root() * kDegreesPerRadian, "deg",
+         "heading error" + airborne);
 }
 
 std::vector<Metric> RunMetrics::results() const {
@@ -172,7 +173,7 @@ std::vector<Metric> RunMetrics::results() const {
   const auto append = [&out](const char* name, double value, const char* unit, const std::string& meaning) {
     out.push_back({name, value, unit, meaning});
   };
-  append("max_tilt_deg", max_tilt_ * kDegrees, "deg",
+  append("max_tilt_deg", max_tilt_ * kDegreesPerRadian, "deg",
          "greatest angle of the body's down axis to the vertical");
   append("max_speed_mps", max_speed_, "m/s", "greatest speed over ground");
   append(kFlightTime, autopilot::seconds(airborne_), "s", "time airborne");

@@ -19,8 +19,8 @@ std::string short_number(double value) {
 
 std::string with_unit(double value, std::string_view unit, Angles angles) {
   const bool in_degrees = angles == Angles::kDegrees;
-  if (unit == "rad" && in_degrees) return short_number(value * kDegrees) + " deg";
-  if (unit == "rad/s" && in_degrees) return short_number(value * kDegrees) + " deg/s";
+  if (unit == "rad" && in_degrees) return short_number(value * kDegreesPerRadian) + " deg";
+  if (unit == "rad/s" && in_degrees) return short_number(value * kDegreesPerRadian) + " deg/s";
   if (unit.empty() || unit == "1" || unit == "SI") return short_number(value);
   return short_number(value) + " " + std::string(unit);
 }

@@ -11,10 +11,10 @@ namespace {
 
 constexpr simulator::Time kTick{2'500'000};
 
-/// Shows the watch `seconds` of contact or flight and collects what it says.
-std::vector<std::string> show(GroundWatch& watch, simulator::Truth& truth, bool contact, double seconds) {
+/// Shows the watch `duration` seconds of contact or flight and collects what it says.
+std::vector<std::string> show(GroundWatch& watch, simulator::Truth& truth, bool contact, double duration) {
   std::vector<std::string> said;
-  for (int i = 0; i < static_cast<int>(seconds / 0.0025); ++i) {
+  for (int i = 0; i < static_cast<int>(duration / 0.0025); ++i) {
     truth.stamp += kTick;
     truth.in_contact = contact;
     if (const auto what = watch.observe(truth)) said.emplace_back(*what);

@@ -24,7 +24,7 @@ using testing::HasSubstr;
 namespace rosflight = hil_bridge::rosflight;
 
 constexpr std::uint64_t kBoot = 5'000'000;  // us, of the first sample of the IMU
-constexpr double kRadians = std::numbers::pi / 180.0;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 /// A log with an IMU at 250 Hz for a second, to which a test adds topics.
 class LogByHand {
@@ -247,7 +247,7 @@ TEST(Px4FlightTest, ReadsTheRecordedEstimateWhereItWasBelieved) {
   EXPECT_FALSE(recorded.positions[0].velocity_known);
   EXPECT_TRUE(recorded.positions[0].height_known);
   EXPECT_TRUE(recorded.positions[1].position_known);
-  EXPECT_NEAR(recorded.origin.latitude, 47.3 * kRadians, 1e-12);
+  EXPECT_NEAR(recorded.origin.latitude, 47.3 * kRadiansPerDegree, 1e-12);
 }
 
 TEST(Px4FlightTest, KnowsWhenItWasAirborneAndArmed) {
