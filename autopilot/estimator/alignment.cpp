@@ -16,10 +16,12 @@ namespace {
 constexpr double kMostStillForceError = 1.0;  // m/s^2, of |f| - g at rest
 constexpr double kMostStillRate = 0.35;       // rad/s, gyro bias plus vibration at rest
 constexpr double kMostAmbiguity = 0.5;        // one heading has the field to the north, one to the south
-constexpr double kLeastFence = 2.0;           // Pa, so that a quantised sensor has no outliers
-constexpr double kStaleWindow = 10.0;         // durations, on top of what slow sensors need
-constexpr double kSlowestFixes = 1.0;         // s, from one fix to the next
-constexpr double kSlowestBaro = 0.1;          // s, from one sample to the next
+constexpr double kOldestFix = 2.0;            // s, from which a start can be carried on
+constexpr Time kMostAhead = std::chrono::milliseconds(10);  // of the IMU's clock, the receiver's
+constexpr double kLeastFence = 2.0;                         // Pa, so that a quantised sensor has no outliers
+constexpr double kStaleWindow = 10.0;                       // durations, on top of what slow sensors need
+constexpr double kSlowestFixes = 1.0;                       // s, from one fix to the next
+constexpr double kSlowestBaro = 0.1;                        // s, from one sample to the next
 
 /// s, that a window may last: means over longer are of another time.
 double stale_after(const AlignmentParams& wanted) {
@@ -139,30 +141,37 @@ void Alignment::add_imu(const ImuSample& imu, double dt) {
   w.w_sum_B += dw_B;
   w.f_square_sum_B += df_B.cwiseProduct(df_B);
   w.w_square_sum_B += dw_B.cwiseProduct(dw_B);
-  if (w.imu > 1) w.impulse.add(imu.stamp, w.turned * imu.f_B, dt);
+  if (imu.stamp > w.begin) w.impulse.add(imu.stamp, w.turned * imu.f_B, dt);
 }
 
 void Alignment::add_fix(const GnssSample& fix) {
   Window& w = window_;
   if (w.fixes == 0) w.first_fix = fix;
   ++w.fixes;
-  w.last_fix = fix;
-  if (!w.told && fix.stamp >= w.impulse.oldest()) {
-    w.told = true;
-    w.told_begin = fix.stamp;
-    w.told_begin_v_N = fix.v_NB_N;
-    w.told_begin_impulse = w.impulse.at(fix.stamp);
-  }
-  w.told_end_impulse = w.impulse.at(fix.stamp);
+  add_told(fix);
   w.latitude_sum += fix.latitude - w.first_fix.latitude;
   w.longitude_sum += shortest_difference(fix.longitude, w.first_fix.longitude);
   w.altitude_sum += fix.altitude - w.first_fix.altitude;
   w.fastest = std::max(w.fastest, fix.v_NB_N.norm());
 }
 
+/// A fix whose stamp nobody can place, or that goes back, tells of nothing.
+void Alignment::add_told(const GnssSample& fix) {
+  Window& w = window_;
+  if (fix.stamp < w.impulse.oldest() || fix.stamp > w.impulse.newest() + kMostAhead) return;
+  const Vector3 impulse = w.impulse.at(fix.stamp);
+  if (!w.told || fix.stamp < w.told_first.stamp) {
+    w.told = true;
+    w.told_first = fix;
+    w.told_first_impulse = impulse;
+  }
+  w.told_last = fix;
+  w.told_last_impulse = impulse;
+}
+
 /// How long the time is that the fixes tell of, s.
 double Alignment::told_span() const {
-  return window_.told ? seconds(window_.last_fix.stamp - window_.told_begin) : 0.0;
+  return window_.told ? seconds(window_.told_last.stamp - window_.told_first.stamp) : 0.0;
 }
 
 bool Alignment::is_still(const AidingParams& params) const {
@@ -196,9 +205,11 @@ void Alignment::find_at_rest(const AidingParams& params) {
 
 bool Alignment::find_in_motion(const AidingParams& params, Time now) {
   const Window& w = window_;
+  const double age = std::max(seconds(now - w.told_last.stamp), 0.0);
+  if (age > kOldestFix) return false;
   const double span = told_span();
-  const Vector3 a_N = (w.last_fix.v_NB_N - w.told_begin_v_N) / span;
-  const Vector3 f_begin = (w.told_end_impulse - w.told_begin_impulse) / span;
+  const Vector3 a_N = (w.told_last.v_NB_N - w.told_first.v_NB_N) / span;
+  const Vector3 f_begin = (w.told_last_impulse - w.told_first_impulse) / span;
   const auto [q_N_begin, ambiguity] =
       attitude_from_vectors(f_begin, a_N, w.m_sum_begin, params.mag.declination, params.gravity);
   if (ambiguity > kMostAmbiguity) return false;
@@ -210,13 +221,12 @@ bool Alignment::find_in_motion(const AidingParams& params, Time now) {
   start_.origin.altitude = w.first_fix.altitude + w.altitude_sum / w.fixes;
   start_.q_NB = q_N_begin * w.turned;
   start_.m_B = w.turned.conjugate() * w.m_sum_begin.normalized();
-  const double age = std::clamp(seconds(now - w.last_fix.stamp), 0.0, 1.0);
-  const Vector3 since_N = q_N_begin * (w.impulse.at(now) - w.told_end_impulse);
-  start_.v_NB_N = w.last_fix.v_NB_N + since_N + params.gravity * age * Vector3::UnitZ();
-  const Vector2 p_N = local_from_geodetic(w.last_fix.latitude, w.last_fix.longitude, start_.origin);
+  const Vector3 since_N = q_N_begin * (w.impulse.at(now) - w.told_last_impulse);
+  start_.v_NB_N = w.told_last.v_NB_N + since_N + params.gravity * age * Vector3::UnitZ();
+  const Vector2 p_N = local_from_geodetic(w.told_last.latitude, w.told_last.longitude, start_.origin);
   start_.origin_pressure = mean_without_outliers(pressures_, w.baro);
   const double weight = standard_density(start_.origin.altitude) * params.gravity;  // Pa/m
-  start_.p_NB_N << p_N + 0.5 * (w.last_fix.v_NB_N + start_.v_NB_N).head<2>() * age,
+  start_.p_NB_N << p_N + 0.5 * (w.told_last.v_NB_N + start_.v_NB_N).head<2>() * age,
       (w.last_pressure - start_.origin_pressure) / weight;
   return true;
 }

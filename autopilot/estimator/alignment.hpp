@@ -17,11 +17,11 @@ struct AttitudeFromVectors {
   template <class Self, class Visit>
   static void describe(Self& self, Visit&& visit) {
     visit("q_NB", self.q_NB, "1", "attitude of B in N");
-    visit("ambiguity", self.ambiguity, "1",
-          "of the two headings at which the field lies in its plane; 0: at one of them it points as far "
-          "south as "
-          "at the other north; above 0.5: less than 120 degrees apart, or both north; 1: one, or none",
-          0.0, 1.0);
+    visit(
+        "ambiguity", self.ambiguity, "1",
+        "of the two headings at which the field lies in its plane; 0: at one of them it points as far south "
+        "as at the other north; above 0.5: less than 120 degrees apart, or both north; 1: one, or none",
+        0.0, 1.0);
   }
 };
 
@@ -105,13 +105,12 @@ class Alignment {
     int mag = 0;
     int fixes = 0;
     GnssSample first_fix;
-    GnssSample last_fix;
-    // What the fixes tell of: from when to when, and the impulse and change of velocity of that time.
+    // The time that fixes tell of, between two whose stamps are within the history.
     bool told = false;
-    Time told_begin{0};
-    Vector3 told_begin_v_N = Vector3::Zero();
-    Vector3 told_begin_impulse = Vector3::Zero();
-    Vector3 told_end_impulse = Vector3::Zero();
+    GnssSample told_first;
+    GnssSample told_last;
+    Vector3 told_first_impulse = Vector3::Zero();
+    Vector3 told_last_impulse = Vector3::Zero();
     double latitude_sum = 0.0;
     double longitude_sum = 0.0;
     double altitude_sum = 0.0;
@@ -123,11 +122,12 @@ class Alignment {
   void collect(const SensorFrame& frame, double dt);
   void add_imu(const ImuSample& imu, double dt);
   void add_fix(const GnssSample& fix);
+  void add_told(const GnssSample& fix);
   void begin_window(Time now);
   double told_span() const;
   bool is_still(const AidingParams& params) const;
   void find_at_rest(const AidingParams& params);
-  /// @return false when the heading is open
+  /// @return false when the heading is open, or the last fix is old
   bool find_in_motion(const AidingParams& params, Time now);
 
   Window window_;

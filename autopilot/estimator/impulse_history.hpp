@@ -9,8 +9,8 @@
 
 namespace ironbird::autopilot {
 
-/// The time integral of a specific force in axes that do not turn, as a function of the last 0.6 s: so that
-/// it can be had for the time of a fix, which is told of later. Never allocates.
+/// The time integral of a specific force in axes that do not turn, as a function of time for a second and
+/// longer: so that it can be had for the time of a fix, which is told of later. Never allocates.
 class ImpulseHistory {
  public:
   /// Begins anew, at 0.
@@ -61,7 +61,7 @@ class ImpulseHistory {
     return entries_[(head_ + entries_.size() - back) % entries_.size()];
   }
 
-  std::array<Entry, 64> entries_{};
+  std::array<Entry, 128> entries_{};
   std::size_t head_ = 0;
   std::size_t count_ = 0;
   Entry newest_;

@@ -56,4 +56,14 @@ bool RunFolder::is_named() const {
          held.st_ino == named.st_ino && held.st_dev == named.st_dev;
 }
 
+void remove_old_products(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {"verdict.json", "report.html", "flight.mcap", "video.mp4"}) {
+    std::filesystem::remove(folder / name, ignored);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "snapshots", ignored)) {
+    if (entry.path().extension() == ".png") std::filesystem::remove(entry.path(), ignored);
+  }
+}
+
 }  // namespace ironbird::scenarios

@@ -28,4 +28,7 @@ class RunFolder {
   int descriptor_ = -1;
 };
 
+/// Removes what an earlier run left in the folder: it must not be taken for this one's.
+void remove_old_products(const std::filesystem::path& folder);
+
 }  // namespace ironbird::scenarios

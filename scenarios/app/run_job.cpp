@@ -47,17 +47,6 @@ Verdict fly(const RunJob& job, const autopilot::Modules& modules, RunListener& l
   return (live ? fly_live : fly_simulated)(job, modules, listener, interrupted);
 }
 
-/// What an earlier run left in the folder must not be taken for this one's.
-void remove_old_products(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  for (const char* name : {"verdict.json", "report.html", "flight.mcap", "video.mp4"}) {
-    std::filesystem::remove(folder / name, ignored);
-  }
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "snapshots", ignored)) {
-    if (entry.path().extension() == ".png") std::filesystem::remove(entry.path(), ignored);
-  }
-}
-
 /// Does the run and fills `result` as far as it comes.
 void carry_out(const RunJob& job, const autopilot::Modules& modules, RunListener& listener,
                RunResult& result) {

@@ -211,11 +211,16 @@ LoadedScenario load_flown(const std::filesystem::path& log, const std::string& c
   root.erase(kVehicleFolder);
   for (const auto& [path, text] : overrides.settings) {
     if (path == "vehicle")
-      throw ConfigError("--set vehicle=" + text + ": the vehicle of a flight that was flown is the log's");
+      throw ConfigError("vehicle = \"" + text +
+                        "\": the vehicle of a flight that was flown is the log's; name another autopilot's "
+                        "scenario with --scenario");
   }
   apply_overrides(root, overrides);
   note_configuration(root, folder, loaded);
+  loaded.field_folders = search_folders(log);
+  loaded.vehicle_path = find_vehicle(folder, loaded.field_folders);
   std::vector<std::string> findings = read_scenario(root, loaded.scenario);
+  loaded.field_path = find_field(loaded.scenario.field, loaded.field_folders);
   const std::vector<std::string> more = load_autopilot(root, modules, loaded);
   findings.insert(findings.end(), more.begin(), more.end());
   if (!findings.empty()) throw ConfigError(findings);

@@ -67,7 +67,7 @@ LoadedScenario load_scenario(const std::filesystem::path& file, const Overrides&
                              const autopilot::Modules& modules);
 
 /// The scenario of a flight that was flown, out of the configuration in its log: only what an autopilot needs
-/// is checked, for the world is not made anew.
+/// is checked, for the world is not made anew; what pictures need is looked for and need not be there.
 /// @param log            its file, for names and messages
 /// @param configuration  as `effective_config`; the same one comes out when nothing is overridden
 /// @throws ConfigError with one line for each finding

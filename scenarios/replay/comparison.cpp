@@ -1,5 +1,4 @@
 #include "scenarios/replay/comparison.hpp"
-#include "scenarios/config/degrees.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include "autopilot/math/angles.hpp"
 #include "autopilot/math/euler_zyx.hpp"
 #include "autopilot/math/local_map.hpp"
+#include "scenarios/config/degrees.hpp"
 #include "scenarios/requirements/difference_metrics.hpp"
 
 namespace ironbird::scenarios {

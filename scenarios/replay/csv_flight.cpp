@@ -1,5 +1,4 @@
 #include "scenarios/replay/csv_flight.hpp"
-#include "scenarios/config/degrees.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,12 +14,13 @@
 #include "autopilot/math/local_map.hpp"
 #include "autopilot/types/sensor_frame.hpp"
 #include "scenarios/bench/run_time.hpp"
+#include "scenarios/config/degrees.hpp"
 #include "scenarios/config/user_error.hpp"
+#include "scenarios/replay/arrivals.hpp"
 #include "scenarios/replay/direction_axes.hpp"
 #include "scenarios/replay/made_sensors.hpp"
 #include "scenarios/replay/mapped_table.hpp"
 #include "scenarios/replay/truth_track.hpp"
-#include "scenarios/replay/wire_stamp.hpp"
 
 namespace ironbird::scenarios {
 
@@ -34,11 +34,6 @@ using hil_bridge::Time;
 namespace rosflight = hil_bridge::rosflight;
 
 constexpr double kLongestFlight = 864'000.0;  // s
-constexpr Time kStatusPeriod = std::chrono::milliseconds(100);
-
-bool is_imu(const Arrival& arrival) {
-  return std::holds_alternative<rosflight::SmallImu>(arrival.message);
-}
 
 class CsvFlightReader {
  public:

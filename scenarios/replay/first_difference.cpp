@@ -37,15 +37,12 @@ FieldDifference difference_of(const std::vector<Ros2MessageType>& types, std::sp
   std::map<std::string, std::vector<std::string>, std::less<>> texts;
   columns.finish(fields, numbers, texts);
   for (const std::string& field : fields) {
-    if (const auto column = numbers.find(field); column != numbers.end()) {
-      const std::vector<double>& pair = column->second;
-      if (std::bit_cast<std::uint64_t>(pair[0]) == std::bit_cast<std::uint64_t>(pair[1])) continue;
-      return {field, exactly(pair[0]), exactly(pair[1])};
-    }
-    if (const auto column = texts.find(field); column != texts.end()) {
-      const std::vector<std::string>& pair = column->second;
-      if (pair[0] != pair[1]) return {field, pair[0], pair[1]};
-    }
+    const std::vector<double>& pair = numbers.at(field);
+    if (std::bit_cast<std::uint64_t>(pair[0]) == std::bit_cast<std::uint64_t>(pair[1])) continue;
+    return {field, exactly(pair[0]), exactly(pair[1])};
+  }
+  for (const auto& [field, pair] : texts) {
+    if (pair[0] != pair[1]) return {field, '"' + pair[0] + '"', '"' + pair[1] + '"'};
   }
   return {};
 }

@@ -23,7 +23,8 @@ struct FieldDifference {
   }
 };
 
-/// Where two messages differ, in the order of the fields. A part that one of them lacks is `no number`.
+/// Where two messages differ, numbers in the order of the fields first, then texts. A part that one of them
+/// lacks is `no number`.
 /// @param types  of both, as parse_ros2_schema() gives them
 FieldDifference difference_of(const std::vector<Ros2MessageType>& types, std::span<const std::uint8_t> was,
                               std::span<const std::uint8_t> is);

@@ -1,5 +1,4 @@
 #include "scenarios/replay/made_sensors.hpp"
-#include "scenarios/config/degrees.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -7,9 +6,10 @@
 #include <utility>
 
 #include "scenarios/bench/run_time.hpp"
+#include "scenarios/config/degrees.hpp"
 #include "scenarios/config/shortest.hpp"
+#include "scenarios/replay/arrivals.hpp"
 #include "scenarios/replay/truth_track.hpp"
-#include "scenarios/replay/wire_stamp.hpp"
 
 namespace ironbird::scenarios {
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scenarios/config/one_line.hpp"
+#include "scenarios/replay/arrivals.hpp"
 #include "scenarios/replay/px4_estimate.hpp"
 #include "scenarios/replay/px4_imu.hpp"
 #include "scenarios/replay/px4_phases.hpp"
@@ -21,8 +22,6 @@ namespace {
 using hil_bridge::Arrival;
 using hil_bridge::Time;
 namespace rosflight = hil_bridge::rosflight;
-
-constexpr Time kStatusPeriod = std::chrono::milliseconds(100);
 
 /// What the log tells of itself under this key.
 std::string told(const UlogFile& file, const char* key) {
@@ -67,10 +66,6 @@ bool is_fixed_wing(const Px4Log& log) {
   return any(status, "vehicle_type", [](std::int64_t type) { return type == kFixedWing; }) ||
          any(status, "is_rotary_wing", [](std::int64_t rotary) { return rotary == 0; }) ||
          log.file.parameter("MAV_TYPE").value_or(0.0) == kAirframe;
-}
-
-bool is_imu(const Arrival& arrival) {
-  return std::holds_alternative<rosflight::SmallImu>(arrival.message);
 }
 
 // With samples of the IMU only: two of them may be days apart.

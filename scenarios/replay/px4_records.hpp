@@ -12,8 +12,8 @@
 
 #include "autopilot/types/linear_algebra.hpp"
 #include "hil_bridge/fcu/fcu.hpp"
+#include "scenarios/replay/arrivals.hpp"
 #include "scenarios/replay/ulog_file.hpp"
-#include "scenarios/replay/wire_stamp.hpp"
 
 // What the parts of read_px4_flight share.
 

@@ -1,5 +1,4 @@
 #include "scenarios/replay/replay_sources.hpp"
-#include "scenarios/config/degrees.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/config/config_error.hpp"
+#include "scenarios/config/degrees.hpp"
 #include "scenarios/config/file_search.hpp"
 #include "scenarios/replay/magnetic_field.hpp"
 #include "scenarios/replay/opened_flight.hpp"
@@ -27,12 +27,6 @@ std::string formatted(const char* format, Values... values) {
   char text[240];
   std::snprintf(text, sizeof text, format, values...);
   return text;
-}
-
-std::optional<double> number_of(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 /// The declination to fly with, rad, and where it is from.
@@ -148,7 +142,13 @@ class RunSource final : public ReplaySource {
     return RunReplay(log_, loaded, modules, std::move(options)).run();
   }
 
-  ReplayedFlight provenance() const override { return provenance_of(log_.flight()); }
+  ReplayedFlight provenance() const override {
+    ReplayedFlight told = provenance_of(log_.flight());
+    told.simulated = log_.simulated();
+    // Its autopilot was told of field and fixes; nobody had to find out.
+    told.declination = told.gnss_delay = std::numeric_limits<double>::quiet_NaN();
+    return told;
+  }
 
   std::vector<std::string> about() const override {
     return {formatted("%s, %.1f s", log_.flight().what.c_str(), to_seconds(log_.flight().end))};
@@ -160,6 +160,12 @@ class RunSource final : public ReplaySource {
 };
 
 }  // namespace
+
+std::optional<double> number_of(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
 
 std::unique_ptr<ReplaySource> ReplaySource::open(
     const FlightArguments& arguments, const std::vector<std::pair<std::string, std::string>>& map_settings) {

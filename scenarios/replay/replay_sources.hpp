@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,9 @@ struct FlightArguments {
   double gnss_delay = -1.0;  ///< s; negative: not named
   double start = 0.0;        ///< s; what was recorded before is left out
 };
+
+/// A number that is all of a text; nothing when it is none, or not finite.
+std::optional<double> number_of(const std::string& text);
 
 /// Which autopilot stands in. No `describe`: neither of it is a value of a file.
 struct PilotChoice {

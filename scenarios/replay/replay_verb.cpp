@@ -25,7 +25,9 @@
 #include "scenarios/replay/provenance.hpp"
 #include "scenarios/replay/replay_sources.hpp"
 #include "scenarios/replay/replay_verdict.hpp"
+#include "scenarios/replay/run_log.hpp"
 #include "scenarios/report/report.hpp"
+#include "scenarios/requirements/number_text.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
 
 namespace ironbird::scenarios {
@@ -48,12 +50,6 @@ struct ReplayArguments {
   bool video = false;
   bool json = false;
 };
-
-std::optional<double> number_of(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
 
 std::optional<Interval> window_of(const std::string& text) {
   if (text.empty()) return std::nullopt;
@@ -126,11 +122,28 @@ PilotChoice choice_of(const ReplayArguments& arguments, const Variant& variant) 
   return choice;
 }
 
-/// A run's log is called as all others are, its folder as its scenario: which must not be written into.
+/// The log of a run has the name of all others, its folder that of the scenario.
 std::string name_of_flight(const std::filesystem::path& file) {
-  const std::string name = file.stem().string();
-  const std::string folder = file.parent_path().filename().string();
-  return name == "flight" && !folder.empty() ? folder + "_replayed" : name;
+  if (!is_mcap(file)) return file.stem().string();
+  std::error_code ignored;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(file, ignored);
+  const bool usual = real.stem() == "flight" && real.has_parent_path();
+  return (usual ? real.parent_path().filename() : real.stem()).string() + "_replayed";
+}
+
+/// A flight that was flown is not written over by one that is replayed.
+void require_no_flown(const std::filesystem::path& log) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(log, ignored)) return;
+  bool replayed = false;
+  try {
+    const McapReader reader(log);
+    const auto run = reader.metadata().find("run");
+    replayed = run != reader.metadata().end() && run->second.contains("recorded");
+  } catch (const UserError&) {  // whatever it is, it is nobody's replay
+  }
+  if (!replayed)
+    throw ConfigError(log.string() + ": is no replay's and would be lost; name another folder with --out");
 }
 
 /// What came of one variant.
@@ -168,15 +181,24 @@ class ReplayWork {
         folder_(std::filesystem::path(arguments.out) / name_) {
     for (const std::string& bound : arguments.bounds) bounds_.push_back(parse_replay_bound(bound));
     source_ = ReplaySource::open(arguments.flight, map_settings_of(arguments));
+    check_times();
+  }
+
+  /// Finds out before anything is written whether it can be done.
+  /// @throws UserError, ConfigError
+  LoadedScenario load(const Variant& variant) const {
+    LoadedScenario loaded = source_->load(choice_of(arguments_, variant), modules_);
+    if (arguments_.video) check_scene(loaded);
+    require_no_flown(folder_of(variant) / "flight.mcap");
+    return loaded;
   }
 
   Replayed run(const Variant& variant, RunListener& listener) const {
-    const LoadedScenario loaded = source_->load(choice_of(arguments_, variant), modules_);
-    if (arguments_.video) check_scene(loaded);
+    const LoadedScenario loaded = load(variant);
     const std::string name = variant.name.empty() ? name_ : name_ + ", " + variant.name;
-    Replayed done{variant, variant.name.empty() ? folder_ : folder_ / variant.name, {}, {}};
-    require_other_file(done.folder / "flight.mcap");
+    Replayed done{variant, folder_of(variant), {}, {}};
     const RunFolder held(done.folder);
+    remove_old_products(done.folder);
     ReplayOptions options;
     options.window = window_;
     options.start = from_seconds(arguments_.flight.start);
@@ -186,7 +208,13 @@ class ReplayWork {
       listener.progress({name, to_seconds(now), length, "replayed"});
       return !interrupt_requested();
     };
-    done.result = source_->replay(loaded, modules_, options);
+    try {
+      done.result = source_->replay(loaded, modules_, options);
+    } catch (...) {  // half a log would be taken for a flight
+      std::error_code ignored;
+      std::filesystem::remove(options.log_file, ignored);
+      throw;
+    }
     done.verdict = judge_replay(done.result,
                                 {name, loaded.scenario.title, loaded.scenario.seed, loaded.digest}, bounds_);
     done.verdict.flight = source_->provenance();
@@ -227,11 +255,19 @@ class ReplayWork {
   }
 
  private:
-  /// The log of a replay must not take the place of what it replays.
-  void require_other_file(const std::filesystem::path& log) const {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(log, arguments_.flight.flight, ignored))
-      throw ConfigError(log.string() + ": is the log to be replayed; name another folder with --out");
+  std::filesystem::path folder_of(const Variant& variant) const {
+    return variant.name.empty() ? folder_ : folder_ / variant.name;
+  }
+
+  void check_times() const {
+    const RecordedFlight& flight = source_->flight();
+    const double end = to_seconds(flight.end);
+    const std::string ends = ": the flight ends at " + with_unit(end, "s");
+    if (arguments_.flight.start >= end)
+      throw ConfigError("--start " + with_unit(arguments_.flight.start, "s") + ends);
+    if (window_ && window_->begin >= flight.end) throw ConfigError("--window " + arguments_.window + ends);
+    if (window_ && window_->end <= from_seconds(arguments_.flight.start))
+      throw ConfigError("--window " + arguments_.window + ": ends before --start");
   }
 
   std::string compared_with() const {
@@ -266,6 +302,7 @@ int replay(const ReplayArguments& arguments, const autopilot::Modules& modules) 
   const std::vector<Variant> variants = variants_of(arguments);
   const ReplayWork work(arguments, modules);
   TerminalListener listener(Terminal::of_standard_error());
+  for (const Variant& variant : variants) work.load(variant);
   std::vector<Replayed> all;
   for (const Variant& variant : variants) all.push_back(work.run(variant, listener));
   work.tell(all);

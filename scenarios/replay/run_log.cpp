@@ -13,6 +13,7 @@
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/mcap_format.hpp"
+#include "scenarios/replay/comparison.hpp"
 #include "scenarios/requirements/number_text.hpp"
 #include "scenarios/requirements/timeline.hpp"
 #include "simulator/types/truth.hpp"
@@ -39,8 +40,17 @@ RecordedPosition position_of(const autopilot::StateEstimate& estimate) {
   return {estimate.stamp, estimate.p_NB_N, estimate.v_NB_N(), known, true, known};
 }
 
-template <class State>
-void add(const State& state, RecordedEstimate& estimate) {
+/// Positions count from where the first estimate did.
+void add_estimate(const autopilot::StateEstimate& estimate, RecordedEstimate& then) {
+  if (!autopilot::is_usable(estimate.health)) return;
+  if (!then.origin.known) then.origin = estimate.origin;
+  then.attitudes.push_back(attitude_of(estimate));
+  then.positions.push_back(position_of(estimate));
+  RecordedPosition& position = then.positions.back();
+  position.p_NB_N = seen_from(then.origin, position.p_NB_N, estimate.origin);
+}
+
+void add(const simulator::Truth& state, RecordedEstimate& estimate) {
   estimate.attitudes.push_back(attitude_of(state));
   estimate.positions.push_back(position_of(state));
 }
@@ -99,6 +109,8 @@ void RunLog::require(std::string_view topic) const {
   const auto found = std::find_if(channels.begin(), channels.end(),
                                   [&](const auto& entry) { return entry.second.topic == topic; });
   const std::string without = path_.string() + ": cannot be flown again: ";
+  if (found == channels.end() && file_->truncated())
+    throw UserError(without + "it was cut short before its first " + std::string(topic));
   if (found == channels.end()) {
     throw UserError(without + "it has no " + std::string(topic) +
                     "; fly the scenario again, with record.frames = true");
@@ -119,8 +131,7 @@ void RunLog::take_recorded() {
       takers[id] = [&](const McapMessage& message) { add(decode<simulator::Truth>(message), truth); };
     } else if (channel.topic == "/autopilot/estimate" && holds<autopilot::StateEstimate>(channel)) {
       takers[id] = [&](const McapMessage& message) {
-        const auto estimate = decode<autopilot::StateEstimate>(message);
-        if (autopilot::is_usable(estimate.health)) add(estimate, then);
+        add_estimate(decode<autopilot::StateEstimate>(message), then);
       };
     } else if (channel.topic == "/bench/event" && holds<RunEvent>(channel)) {
       takers[id] = [&](const McapMessage& message) {
@@ -136,6 +147,7 @@ void RunLog::take_recorded() {
     if (const auto taker = takers.find(message.channel); taker != takers.end()) taker->second(message);
   }
   for (Interval& interval : flight_.airborne) interval.end = std::min(interval.end, flight_.end);
+  simulated_ = !truth.attitudes.empty();
   for (RecordedEstimate* estimate : {&truth, &then}) {
     if (!estimate->attitudes.empty()) flight_.estimates.push_back(std::move(*estimate));
   }

@@ -23,6 +23,8 @@ class RunLog {
   /// What was recorded beside the frames: truth where there is one, else the estimate of then. Has no
   /// messages.
   const RecordedFlight& flight() const { return flight_; }
+  /// It tells of the truth, so there was a model.
+  bool simulated() const { return simulated_; }
   /// As `LoadedScenario::effective_config` and its digest.
   const std::string& configuration() const { return configuration_; }
   const std::string& digest() const { return digest_; }
@@ -61,6 +63,7 @@ class RunLog {
   RecordedFlight flight_;
   std::string configuration_;
   std::string digest_;
+  bool simulated_ = false;
 };
 
 /// The file begins as logs of ours do.

@@ -133,8 +133,9 @@ void RunReplay::take_frame(const McapMessage& message) {
 }
 
 void RunReplay::take_request(const McapMessage& message) {
+  const auto then = log_.decode<LoggedRequest>(message);
   try {
-    const autopilot::Request request = request_of(log_.decode<LoggedRequest>(message));
+    const autopilot::Request request = request_of(then);
     request_ = logged(request, replay_.request(request, time_of(message)));
   } catch (const UserError& error) {
     throw UserError(log_.place_of(message) + error.what());
@@ -168,8 +169,9 @@ const RunReplay::Watched* RunReplay::first_different() const {
 }
 
 std::string RunReplay::difference_text(const Watched& first) const {
-  return "the first at " + exact_time(first.first) + ": " + first.topic + " " + first.how.field + " was " +
-         first.how.was + ", is " + first.how.is;
+  const std::string where = "the first at " + exact_time(first.first) + ": " + first.topic + " ";
+  if (first.how.field.empty()) return where + "has other bytes of which no field can be named";
+  return where + first.how.field + " was " + first.how.was + ", is " + first.how.is;
 }
 
 CheckResult RunReplay::same_as_then() const {

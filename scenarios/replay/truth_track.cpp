@@ -17,7 +17,7 @@ using autopilot::Quaternion;
 using autopilot::Vector3;
 using hil_bridge::Time;
 
-constexpr Time kLongestGap = std::chrono::seconds(1);
+constexpr Time kLongestTruthGap = std::chrono::seconds(1);
 constexpr std::ptrdiff_t kLeastNeighbours = 5;
 
 using Position = std::vector<RecordedPosition>::const_iterator;
@@ -53,7 +53,7 @@ std::optional<Between<Sample>> around(const std::vector<Sample>& samples, Time w
   if (after == samples.begin()) return std::nullopt;
   const auto before = std::prev(after);
   const Time gap = after->stamp - before->stamp;
-  if (gap > kLongestGap) return std::nullopt;
+  if (gap > kLongestTruthGap) return std::nullopt;
   return Between<Sample>{*before, *after, to_seconds(when - before->stamp) / to_seconds(gap)};
 }
 

@@ -22,10 +22,8 @@ namespace {
 using simulator::kMaxRotors;
 using simulator::Vector3;
 
-constexpr double kEventShown = 3.0;     // s that an event's text stays in the picture
-constexpr double kBladeSpeed = 40.0;    // rad/s, up to here blades turn as they do
-constexpr double kApparentSpeed = 9.0;  // rad/s that the streaks of a faster rotor seem to turn with
-constexpr double kSpeedWindow = 0.1;    // s over which the speed in the text is taken
+constexpr double kEventShown = 3.0;                // s that an event's text stays in the picture
+constexpr double kBladeSpeed = 40.0;               // rad/s, up to here blades turn as they do
 constexpr std::array<double, 2> kTurn{1.0, -1.0};  // rotors turn left and right alternately
 
 const LogTopic& need(const Log& log, const char* name) {

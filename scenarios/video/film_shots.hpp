@@ -10,6 +10,11 @@
 
 namespace ironbird::scenarios {
 
+/// rad/s that the streaks of a faster rotor seem to turn with.
+inline constexpr double kApparentSpeed = 9.0;
+/// s over which the speed in the text is taken.
+inline constexpr double kSpeedWindow = 0.1;
+
 /// When a picture is taken, s: the time between `begin` and `end` that the options want, both ends included.
 /// @param of  whose times they are, in messages
 /// @throws UserError when a film would last longer than a day

@@ -31,10 +31,8 @@ constexpr const char* kPhase = "/recorded/phase";
 constexpr const char* kOrigin = "/recorded/origin";
 constexpr const char* kDifference = "/compared/difference";
 
-constexpr double kTurning = 400.0;      // rad/s, of rotors of which nothing is known but that they turn
-constexpr double kApparentSpeed = 9.0;  // rad/s that their streaks seem to turn with
-constexpr double kSpeedWindow = 0.1;    // s over which the speed in the text is taken
-constexpr double kLongestGap = 2.0;     // s without a recorded estimate, after which it has no place
+constexpr double kTurning = 400.0;   // rad/s, of rotors of which nothing is known but that they turn
+constexpr double kLongestGap = 2.0;  // s without a recorded estimate, after which it has no place
 
 std::string about(const Log& log, const char* key, const char* otherwise) {
   const auto run = log.metadata().find("run");

@@ -161,5 +161,27 @@ INSTANTIATE_TEST_SUITE_P(
         PlaceCase{"NoLog", "video $D/none.mcap", "none.mcap: cannot be opened: there is no such file"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
+TEST_F(LogsAgainTest, ReplaysARunBesideItAndNeverOverIt) {
+  const std::string flown = bytes("flight/flight.mcap");
+  const Said said =
+      run_shell(kProgram + " replay " + path("flight/flight.mcap") + " --out " + folder_->text());
+  EXPECT_EQ(said.exit_code, 0) << said.text;
+  EXPECT_THAT(said.text, HasSubstr("commands are the same"));
+  EXPECT_TRUE(std::filesystem::exists(path("flight_replayed/report.html")));
+  // A replay may take the place of a replay, and of nothing else.
+  EXPECT_EQ(
+      run_shell(kProgram + " replay " + path("flight/flight.mcap") + " --out " + folder_->text()).exit_code,
+      0);
+  std::filesystem::create_directories(path("kept"));
+  std::filesystem::copy_file(path("flight/flight.mcap"), path("kept/flight.mcap"));
+  std::filesystem::create_directories(path("out/kept_replayed"));
+  std::filesystem::copy_file(path("flight/flight.mcap"), path("out/kept_replayed/flight.mcap"));
+  const Said refused = run_shell(kProgram + " replay " + path("kept/flight.mcap") + " --out " + path("out"));
+  EXPECT_EQ(refused.exit_code, 2) << refused.text;
+  EXPECT_THAT(refused.text, HasSubstr("is no replay's and would be lost; name another folder with --out"));
+  EXPECT_EQ(bytes("flight/flight.mcap"), flown);
+  EXPECT_EQ(bytes("out/kept_replayed/flight.mcap"), flown);
+}
+
 }  // namespace
 }  // namespace ironbird::scenarios
