@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "autopilot/math/angles.hpp"
@@ -16,12 +15,13 @@ namespace {
 constexpr double kMostStillForceError = 1.0;  // m/s^2, of |f| - g at rest
 constexpr double kMostStillRate = 0.35;       // rad/s, gyro bias plus vibration at rest
 constexpr double kMostAmbiguity = 0.5;        // one heading has the field to the north, one to the south
-constexpr double kOldestFix = 2.0;            // s, from which a start can be carried on
-constexpr Time kMostAhead = std::chrono::milliseconds(10);  // of the IMU's clock, the receiver's
-constexpr double kLeastFence = 2.0;                         // Pa, so that a quantised sensor has no outliers
-constexpr double kStaleWindow = 10.0;                       // durations, on top of what slow sensors need
-constexpr double kSlowestFixes = 1.0;                       // s, from one fix to the next
-constexpr double kSlowestBaro = 0.1;                        // s, from one sample to the next
+constexpr double kOldestFix = 2.0;            // s: one a second, a second late, is carried on
+// How far the stamps of a fix may be ahead of the IMU's: two sources, brought to one clock.
+constexpr Time kMostAhead = std::chrono::milliseconds(10);
+constexpr double kLeastFence = 2.0;    // Pa, so that a quantised sensor has no outliers
+constexpr double kStaleWindow = 10.0;  // durations, on top of what slow sensors need
+constexpr double kSlowestFixes = 1.0;  // s, from one fix to the next
+constexpr double kSlowestBaro = 0.1;   // s, from one sample to the next
 
 /// s, that a window may last: means over longer are of another time.
 double stale_after(const AlignmentParams& wanted) {
@@ -41,27 +41,12 @@ double quantile(const std::array<double, 512>& sorted, int count, double fractio
   return sorted[below] + (rank - below) * (sorted[above] - sorted[below]);
 }
 
-/// The shortest turn of the direction of `from` into that of `to`; about any axis across them where they are
-/// opposite.
-Quaternion shortest_turn(const Vector3& from, const Vector3& to) {
-  constexpr double kOpposite = -1.0 + 1.0e-12;
-  const Vector3 start = from.normalized();
-  const Vector3 end = to.normalized();
-  const double cosine = end.dot(start);
-  if (cosine < kOpposite) return Quaternion(Eigen::AngleAxisd(std::numbers::pi, start.unitOrthogonal()));
-  const double twice_w = std::sqrt((1.0 + cosine) * 2.0);
-  Quaternion turn;
-  turn.w() = 0.5 * twice_w;
-  turn.vec() = start.cross(end) * (1.0 / twice_w);
-  return turn;
-}
-
 }  // namespace
 
 AttitudeFromVectors attitude_from_vectors(const Vector3& f_B, const Vector3& a_N, const Vector3& m_B,
                                           double declination, double gravity) {
   const Vector3 up_N = (a_N - gravity * Vector3::UnitZ()).normalized();  // direction of the specific force
-  const Quaternion q_any = shortest_turn(f_B, up_N);
+  const Quaternion q_any = Quaternion::FromTwoVectors(f_B, up_N);
   // What is left is a turn by alpha about up_N that brings the field into the plane of magnetic north.
   const Vector3 m_N = q_any * m_B.normalized();
   const Vector3 along = up_N * up_N.dot(m_N);

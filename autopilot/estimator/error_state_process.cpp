@@ -10,8 +10,6 @@
 
 namespace ironbird::autopilot {
 
-namespace {}  // namespace
-
 Vector3 corrected_rate(const ErrorState& x, const Vector3& w_NB_B) {
   const Vector3 u_B = w_NB_B - x.gyro_bias_B;
   return u_B + x.gyro_misalignment_B.cross(u_B) + x.gyro_scale_B.cwiseProduct(u_B);

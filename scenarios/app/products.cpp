@@ -8,6 +8,7 @@
 #include "scenarios/config/include.hpp"
 #include "scenarios/config/toml_reader.hpp"
 #include "scenarios/config/write_file.hpp"
+#include "scenarios/record/topics.hpp"
 #include "scenarios/report/report.hpp"
 #include "scenarios/video/film.hpp"
 #include "scenarios/video/png.hpp"
@@ -31,7 +32,7 @@ std::vector<NamedCamera> cameras_of(const PicturePlan& plan) {
 
 /// When the bench reported that this snapshot was due, s; NaN when it never was.
 double time_of_snapshot(const Log& log, const std::string& name) {
-  const LogTopic* events = log.topic("/bench/event");
+  const LogTopic* events = log.topic(kEventTopic);
   if (events == nullptr) return std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < events->time().size(); ++i) {
     if (events->texts("kind")[i] == "snapshot" && events->texts("text")[i] == picture_event(name))

@@ -2,6 +2,7 @@
 
 #include "scenarios/bench/logged_request.hpp"
 #include "scenarios/bench/run_time.hpp"
+#include "scenarios/record/topics.hpp"
 
 namespace ironbird::scenarios {
 
@@ -39,22 +40,21 @@ void FlightLog::add_topics(const LoadedScenario& loaded) {
   const hil_bridge::Telemetry& fcu = sources_.fcu;
   const Time state = from_seconds(record.state_period);
   const Time slow = from_seconds(record.signal_period);
-  if (sources_.truth != nullptr)
-    recorder_.add("/truth/state", *sources_.truth, state, Recorder::When::kAlways);
-  recorder_.add("/autopilot/estimate", signals.estimate, state);
+  if (sources_.truth != nullptr) recorder_.add(kTruthTopic, *sources_.truth, state, Recorder::When::kAlways);
+  recorder_.add(kEstimateTopic, signals.estimate, state);
   if (record.frames) {
-    sensors_ = recorder_.add("/autopilot/sensors", signals.sensors, {}, Recorder::When::kWhenTold);
-    command_ = recorder_.add("/autopilot/command", signals.command, {}, Recorder::When::kWhenTold);
+    sensors_ = recorder_.add(kSensorsTopic, signals.sensors, {}, Recorder::When::kWhenTold);
+    command_ = recorder_.add(kCommandTopic, signals.command, {}, Recorder::When::kWhenTold);
   }
   recorder_.announce<LoggedRequest>(kRequestTopic);
-  recorder_.add("/autopilot/flight", signals.flight, slow);
-  recorder_.add("/autopilot/trajectory", signals.trajectory, slow);
-  recorder_.add("/autopilot/setpoint", signals.setpoint, slow);
-  recorder_.add("/fcu/output_raw", fcu.output_raw, slow);
-  recorder_.add("/fcu/status", fcu.status, slow);
-  recorder_.add("/fcu/attitude", fcu.attitude, slow);
-  recorder_.add("/fcu/battery", fcu.battery, slow);
-  recorder_.add("/fcu/rc", fcu.rc, slow);
+  recorder_.add(kFlightTopic, signals.flight, slow);
+  recorder_.add(kTrajectoryTopic, signals.trajectory, slow);
+  recorder_.add(kSetpointTopic, signals.setpoint, slow);
+  recorder_.add(kOutputTopic, fcu.output_raw, slow);
+  recorder_.add(kStatusTopic, fcu.status, slow);
+  recorder_.add(kUnitAttitudeTopic, fcu.attitude, slow);
+  recorder_.add(kBatteryTopic, fcu.battery, slow);
+  recorder_.add(kRcTopic, fcu.rc, slow);
   autopilot::for_each_slot([&](const auto& slot) {
     probes_.watch(slot.name, (loaded.autopilot.*slot.config).kind, (sources_.autopilot.*slot.module)());
   });
@@ -84,7 +84,7 @@ void FlightLog::observe(Time now, bool stepped) {
   recorder_.observe(now, stepped);
   const autopilot::Route& route = sources_.autopilot.signals().route;
   if (route.revision == recorded_route_) return;
-  recorder_.write_once("/autopilot/route", route, now);
+  recorder_.write_once(kRouteTopic, route, now);
   recorded_route_ = route.revision;
 }
 

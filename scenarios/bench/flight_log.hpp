@@ -13,6 +13,7 @@
 #include "scenarios/bench/probe_recorder.hpp"
 #include "scenarios/bench/scenario_loader.hpp"
 #include "scenarios/record/recorder.hpp"
+#include "scenarios/record/topics.hpp"
 #include "scenarios/requirements/timeline.hpp"
 #include "simulator/types/truth.hpp"
 
@@ -51,7 +52,7 @@ class FlightLog {
   void request(const autopilot::Request& request, const autopilot::RequestOutcome& outcome, Time now);
   /// To be called after every tick. @param stepped  the autopilot worked in it
   void observe(Time now, bool stepped);
-  void event(const RunEvent& event, Time now) { recorder_.write_once("/bench/event", event, now); }
+  void event(const RunEvent& event, Time now) { recorder_.write_once(kEventTopic, event, now); }
   /// From now on `module` flies in `slot`.
   void watch(const std::string& slot, const std::string& kind, const autopilot::Module& module) {
     probes_.watch(slot, kind, module);

@@ -1,5 +1,7 @@
 #include "scenarios/record/logged_route.hpp"
 
+#include "scenarios/record/topics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -24,7 +26,7 @@ std::vector<Eigen::Vector3d> waypoints_at(const LogTopic& route, std::size_t mes
 }
 
 double end_of(const Log& log, double otherwise) {
-  const LogTopic* flown = log.topic("/autopilot/trajectory");
+  const LogTopic* flown = log.topic(kTrajectoryTopic);
   return flown == nullptr || flown->time().empty() ? otherwise : std::max(otherwise, flown->time().back());
 }
 
@@ -32,7 +34,7 @@ double end_of(const Log& log, double otherwise) {
 
 std::vector<LoggedRoute> logged_routes(const Log& log) {
   std::vector<LoggedRoute> routes;
-  const LogTopic* topic = log.topic("/autopilot/route");
+  const LogTopic* topic = log.topic(kRouteTopic);
   if (topic == nullptr) return routes;
   const std::vector<double>& time = topic->time();
   for (std::size_t k = 0; k < time.size(); ++k) {

@@ -8,6 +8,7 @@
 #include "hil_bridge/translate/sensor_frame_builder.hpp"
 #include "scenarios/bench/operator.hpp"
 #include "scenarios/bench/run_time.hpp"
+#include "scenarios/record/topics.hpp"
 
 namespace ironbird::scenarios {
 
@@ -77,7 +78,7 @@ void Replay::step(const autopilot::SensorFrame& frame, Time now) {
   }
   if (comparison_) {
     for (const EstimateDifference& difference : comparison_->observe(autopilot_->signals().estimate)) {
-      if (log_) log_->recorder().write_once("/compared/difference", difference, now);
+      if (log_) log_->recorder().write_once(kDifferenceTopic, difference, now);
     }
   }
   if (log_) log_->observe(now, true);
@@ -118,31 +119,31 @@ void Replay::write_recorded(const autopilot::SensorFrame& frame, Time now) {
   const autopilot::LocalOrigin& here = autopilot_->signals().estimate.origin;
   Recorder& recorder = log_->recorder();
   for (; next_phase_ < flight_.phases.size() && flight_.phases[next_phase_].stamp <= now; ++next_phase_)
-    recorder.write_once("/recorded/phase", flight_.phases[next_phase_], now);
+    recorder.write_once(kRecordedPhaseTopic, flight_.phases[next_phase_], now);
   if (frame.gnss && autopilot::is_usable(frame.gnss->fix) && here.known) {
     const autopilot::GnssSample& fix = *frame.gnss;
     const autopilot::Vector3 p_N =
         autopilot::local_from_geodetic({fix.latitude, fix.longitude, fix.altitude}, here);
-    recorder.write_once("/recorded/fix", RecordedFix{fix.stamp, p_N, fix.v_NB_N, fix.horizontal_accuracy},
+    recorder.write_once(kRecordedFixTopic, RecordedFix{fix.stamp, p_N, fix.v_NB_N, fix.horizontal_accuracy},
                         now);
   }
   if (flight_.estimates.empty()) return;
   const RecordedEstimate& recorded = flight_.estimates.front();
   if (!origin_written_ && here.known && recorded.origin.known) {
     const autopilot::Vector3 there = seen_from(here, autopilot::Vector3::Zero(), recorded.origin);
-    recorder.write_once("/recorded/origin", RecordedOrigin{there}, now);
+    recorder.write_once(kRecordedOriginTopic, RecordedOrigin{there}, now);
     origin_written_ = true;
   }
   for (; next_attitude_ < recorded.attitudes.size() && recorded.attitudes[next_attitude_].stamp <= now;
        ++next_attitude_)
-    recorder.write_once("/recorded/attitude", recorded.attitudes[next_attitude_], now);
+    recorder.write_once(kRecordedAttitudeTopic, recorded.attitudes[next_attitude_], now);
   for (; next_position_ < recorded.positions.size() && recorded.positions[next_position_].stamp <= now;
        ++next_position_) {
     // Before there is an origin to see it from it cannot be shown beside ours.
     if (recorded.origin.known && !here.known) continue;
     RecordedPosition position = recorded.positions[next_position_];
     position.p_NB_N = seen_from(here, position.p_NB_N, recorded.origin);
-    recorder.write_once("/recorded/position", position, now);
+    recorder.write_once(kRecordedPositionTopic, position, now);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/mcap_format.hpp"
+#include "scenarios/record/topics.hpp"
 #include "scenarios/replay/comparison.hpp"
 #include "scenarios/requirements/number_text.hpp"
 #include "scenarios/requirements/timeline.hpp"
@@ -23,8 +24,6 @@ namespace ironbird::scenarios {
 namespace {
 
 using hil_bridge::Time;
-
-constexpr std::string_view kSensors = "/autopilot/sensors";
 
 RecordedAttitude attitude_of(const simulator::Truth& truth) {
   return {truth.stamp, truth.q_NB};
@@ -85,7 +84,7 @@ RunLog RunLog::read(const std::filesystem::path& file) {
   log.path_ = file;
   log.file_ = std::make_unique<McapReader>(file);
   log.describe_flight();
-  log.require<autopilot::SensorFrame>(kSensors);
+  log.require<autopilot::SensorFrame>(kSensorsTopic);
   log.require<LoggedRequest>(kRequestTopic);
   log.take_recorded();
   return log;
@@ -127,17 +126,17 @@ void RunLog::take_recorded() {
   RecordedEstimate then{"the estimate of then", {}, {}, {}};
   std::map<std::uint16_t, std::function<void(const McapMessage&)>> takers;
   for (const auto& [id, channel] : file_->channels()) {
-    if (channel.topic == "/truth/state" && holds<simulator::Truth>(channel)) {
+    if (channel.topic == kTruthTopic && holds<simulator::Truth>(channel)) {
       takers[id] = [&](const McapMessage& message) { add(decode<simulator::Truth>(message), truth); };
-    } else if (channel.topic == "/autopilot/estimate" && holds<autopilot::StateEstimate>(channel)) {
+    } else if (channel.topic == kEstimateTopic && holds<autopilot::StateEstimate>(channel)) {
       takers[id] = [&](const McapMessage& message) {
         add_estimate(decode<autopilot::StateEstimate>(message), then);
       };
-    } else if (channel.topic == "/bench/event" && holds<RunEvent>(channel)) {
+    } else if (channel.topic == kEventTopic && holds<RunEvent>(channel)) {
       takers[id] = [&](const McapMessage& message) {
         note_ground(decode<RunEvent>(message), flight_.airborne);
       };
-    } else if (channel.topic == kSensors) {
+    } else if (channel.topic == kSensorsTopic) {
       takers[id] = [&](const McapMessage& message) {
         flight_.end = Time(static_cast<std::int64_t>(message.log_time));
       };

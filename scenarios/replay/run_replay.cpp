@@ -10,6 +10,7 @@
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/cdr.hpp"
+#include "scenarios/record/topics.hpp"
 #include "simulator/types/truth.hpp"
 
 namespace ironbird::scenarios {
@@ -18,15 +19,10 @@ namespace {
 
 using hil_bridge::Time;
 
-constexpr std::string_view kCommand = "/autopilot/command";
 /// In the order in which a tick computes them: of two that differ in one tick the earlier is the cause.
-constexpr std::array<std::string_view, 7> kOrder{kRequestTopic,
-                                                 "/autopilot/flight",
-                                                 "/autopilot/estimate",
-                                                 "/autopilot/route",
-                                                 "/autopilot/trajectory",
-                                                 "/autopilot/setpoint",
-                                                 kCommand};
+constexpr std::array<std::string_view, 7> kOrder{kRequestTopic, kFlightTopic,     kEstimateTopic,
+                                                 kRouteTopic,   kTrajectoryTopic, kSetpointTopic,
+                                                 kCommandTopic};
 
 Time time_of(const McapMessage& message) {
   return Time(static_cast<std::int64_t>(message.log_time));
@@ -56,24 +52,24 @@ void RunReplay::wire(std::uint16_t id, const McapChannel& channel) {
   const std::string& topic = channel.topic;
   const autopilot::Signals& signals = replay_.autopilot().signals();
   hil_bridge::Telemetry& fcu = replay_.telemetry();
-  if (topic == "/autopilot/sensors") handlers_[id] = [this](const McapMessage& m) { take_frame(m); };
+  if (topic == kSensorsTopic) handlers_[id] = [this](const McapMessage& m) { take_frame(m); };
   if (topic == kRequestTopic) {
     watch(id, channel, request_);
     handlers_[id] = [this](const McapMessage& m) { take_request(m); };
   }
-  if (topic == "/autopilot/flight") watch(id, channel, signals.flight);
-  if (topic == "/autopilot/estimate") watch(id, channel, signals.estimate);
-  if (topic == "/autopilot/route") watch(id, channel, signals.route);
-  if (topic == "/autopilot/trajectory") watch(id, channel, signals.trajectory);
-  if (topic == "/autopilot/setpoint") watch(id, channel, signals.setpoint);
-  if (topic == kCommand) watch(id, channel, signals.command);
-  if (topic == "/fcu/status") take_over(id, channel, fcu.status);
-  if (topic == "/fcu/output_raw") take_over(id, channel, fcu.output_raw);
-  if (topic == "/fcu/attitude") take_over(id, channel, fcu.attitude);
-  if (topic == "/fcu/battery") take_over(id, channel, fcu.battery);
-  if (topic == "/fcu/rc") take_over(id, channel, fcu.rc);
-  if (topic == "/bench/event") pass_on<RunEvent>(id, channel);
-  if (topic == "/truth/state") pass_on<simulator::Truth>(id, channel);
+  if (topic == kFlightTopic) watch(id, channel, signals.flight);
+  if (topic == kEstimateTopic) watch(id, channel, signals.estimate);
+  if (topic == kRouteTopic) watch(id, channel, signals.route);
+  if (topic == kTrajectoryTopic) watch(id, channel, signals.trajectory);
+  if (topic == kSetpointTopic) watch(id, channel, signals.setpoint);
+  if (topic == kCommandTopic) watch(id, channel, signals.command);
+  if (topic == kStatusTopic) take_over(id, channel, fcu.status);
+  if (topic == kOutputTopic) take_over(id, channel, fcu.output_raw);
+  if (topic == kUnitAttitudeTopic) take_over(id, channel, fcu.attitude);
+  if (topic == kBatteryTopic) take_over(id, channel, fcu.battery);
+  if (topic == kRcTopic) take_over(id, channel, fcu.rc);
+  if (topic == kEventTopic) pass_on<RunEvent>(id, channel);
+  if (topic == kTruthTopic) pass_on<simulator::Truth>(id, channel);
 }
 
 /// What is no business of the autopilot goes from log to log.
@@ -180,7 +176,7 @@ CheckResult RunReplay::same_as_then() const {
   check.kind = "same";
   check.margin = check.time = std::numeric_limits<double>::quiet_NaN();
   const auto commands = std::find_if(watched_.begin(), watched_.end(),
-                                     [](const auto& entry) { return entry.second.topic == kCommand; });
+                                     [](const auto& entry) { return entry.second.topic == kCommandTopic; });
   const std::uint64_t compared = commands == watched_.end() ? 0 : commands->second.compared;
   const Watched* first = first_different();
   if (first != nullptr && whole_until_ && first->first > *whole_until_) {

@@ -4,15 +4,12 @@
 #include <cmath>
 
 #include "scenarios/config/degrees.hpp"
+#include "scenarios/record/topics.hpp"
 #include "scenarios/report/flight_data.hpp"
-#include "scenarios/report/topics.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
-
-constexpr const char* kTruthTopic = "/truth/state";
-constexpr const char* kOutputs = "/fcu/output_raw";
 
 /// The parts that a curve can play.
 enum class Role { kCommand, kEstimate, kTruth };
@@ -300,7 +297,7 @@ plot::TimeStack attitude_errors(const std::vector<ReportRun>& runs) {
 
 plot::TimeStack motors_and_battery(const std::vector<ReportRun>& runs) {
   plot::TimeStack stack{"Motors and battery", {}, 1180.0, 100.0};
-  stack.panels.push_back(rotor_panel(runs, "motor outputs", "0 to 1", kOutputs, "values", 0.05));
+  stack.panels.push_back(rotor_panel(runs, "motor outputs", "0 to 1", kOutputTopic, "values", 0.05));
   stack.panels.push_back(rotor_panel(runs, "rotor speeds", "rad/s", kTruthTopic, "rotor_speed", 20.0));
   stack.panels.push_back(battery_panel(runs, "battery voltage", "V", "battery_voltage", 0.5));
   stack.panels.push_back(battery_panel(runs, "battery current", "A", "battery_current", 2.0));

@@ -13,7 +13,7 @@
 
 #include "scenarios/record/held_column.hpp"
 #include "scenarios/record/logged_route.hpp"
-#include "scenarios/report/topics.hpp"
+#include "scenarios/record/topics.hpp"
 #include "scenarios/requirements/attitude.hpp"
 #include "scenarios/requirements/metrics.hpp"
 
@@ -21,8 +21,6 @@ namespace ironbird::scenarios {
 
 namespace {
 
-constexpr const char* kTruth = "/truth/state";
-constexpr const char* kFlight = "/autopilot/flight";
 constexpr std::array<const char*, 3> kAxisSuffixes{".x", ".y", ".z"};
 
 double mix(double a, double b, double share) {
@@ -104,11 +102,11 @@ HeldColumn held(const ReportRun& run, const char* topic, const char* field) {
 class WhoFlies {
  public:
   explicit WhoFlies(const ReportRun& run)
-      : phase_(held(run, kFlight, "phase")),
-        armed_(held(run, kFlight, "fcu.armed")),
-        operator_setpoint_(held(run, kFlight, "operator_setpoint")),
-        failsafe_(held(run, kFlight, "fcu.failsafe")),
-        override_(held(run, kFlight, "fcu.rc_override")) {}
+      : phase_(held(run, kFlightTopic, "phase")),
+        armed_(held(run, kFlightTopic, "fcu.armed")),
+        operator_setpoint_(held(run, kFlightTopic, "operator_setpoint")),
+        failsafe_(held(run, kFlightTopic, "fcu.failsafe")),
+        override_(held(run, kFlightTopic, "fcu.rc_override")) {}
 
   /// @param time  s, not before that of the call before
   autopilot::FlightStatus at(double time) {
@@ -161,7 +159,7 @@ constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 /// Gaps elsewhere; without the topic nobody knows, and all stays.
 Curve while_flown(const ReportRun& run, Curve curve, bool (autopilot::FlightStatus::*flown)() const) {
-  if (run.log().topic(kFlight) == nullptr) return curve;
+  if (run.log().topic(kFlightTopic) == nullptr) return curve;
   WhoFlies flight(run);
   for (std::size_t i = 0; i < curve.value.size(); ++i) {
     if (!(flight.at(curve.time[i]).*flown)()) curve.value[i] = kGap;
@@ -253,7 +251,7 @@ Curve resampled_angle(const Curve& curve, const std::vector<double>& time) {
 }
 
 Curves position_error(const ReportRun& run) {
-  const Curves estimate = estimates_of(run, "p_NB_N"), truth = vector_of(run, kTruth, "p_NB_N");
+  const Curves estimate = estimates_of(run, "p_NB_N"), truth = vector_of(run, kTruthTopic, "p_NB_N");
   Curves out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = difference(estimate[i], truth[i], false);
   return out;
@@ -261,7 +259,7 @@ Curves position_error(const ReportRun& run) {
 
 std::optional<double> height_apart(const ReportRun& run) {
   const Curve down = position_error(run)[2];
-  HeldColumn in_contact = held(run, kTruth, "in_contact");
+  HeldColumn in_contact = held(run, kTruthTopic, "in_contact");
   for (std::size_t i = 0; i < down.value.size(); ++i) {
     if (!std::isfinite(down.value[i])) continue;
     return in_contact.at(down.time[i]) == 1.0 ? std::optional(down.value[i]) : std::nullopt;
@@ -270,11 +268,11 @@ std::optional<double> height_apart(const ReportRun& run) {
 }
 
 Curves velocity_error(const ReportRun& run) {
-  const std::vector<Eigen::Quaterniond> attitudes = attitudes_of(run, kTruth, "q_NB");
-  const Curves v_NB_N = vector_of(run, kTruth, "v_NB_N");
+  const std::vector<Eigen::Quaterniond> attitudes = attitudes_of(run, kTruthTopic, "q_NB");
+  const Curves v_NB_N = vector_of(run, kTruthTopic, "v_NB_N");
   Curves truth;
   if (v_NB_N[0].value.size() == attitudes.size() && !attitudes.empty()) {
-    for (Curve& curve : truth) curve.time = run.time(kTruth);
+    for (Curve& curve : truth) curve.time = run.time(kTruthTopic);
     for (std::size_t k = 0; k < attitudes.size(); ++k) {
       const Eigen::Vector3d v_N(v_NB_N[0].value[k], v_NB_N[1].value[k], v_NB_N[2].value[k]);
       const Eigen::Vector3d v_B = attitudes[k].conjugate() * v_N;
@@ -288,7 +286,7 @@ Curves velocity_error(const ReportRun& run) {
 }
 
 Curves attitude_error(const ReportRun& run) {
-  const Curves truth = angles_of(run, kTruth, "q_NB");
+  const Curves truth = angles_of(run, kTruthTopic, "q_NB");
   Curves out;
   out[0] = difference(estimate_of(run, "roll"), truth[0], true);
   out[1] = difference(estimate_of(run, "pitch"), truth[1], true);

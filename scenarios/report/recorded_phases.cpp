@@ -2,14 +2,12 @@
 
 #include <algorithm>
 
+#include "scenarios/record/topics.hpp"
 #include "scenarios/report/replay_figures.hpp"
 
 namespace ironbird::scenarios {
 
 namespace {
-
-constexpr const char* kPhase = "/recorded/phase";
-constexpr const char* kEstimate = "/autopilot/estimate";
 
 /// The tint of a phase in flight, one of those of our own.
 std::string style_of_phase(const std::string& name) {
@@ -22,10 +20,10 @@ std::string style_of_phase(const std::string& name) {
 
 std::vector<plot::Stretch> recorded_phases(const ReportRun& run) {
   std::vector<plot::Stretch> out;
-  const LogTopic* const topic = run.log().topic(kPhase);
+  const LogTopic* const topic = run.log().topic(kRecordedPhaseTopic);
   if (topic == nullptr || topic->time().empty()) return out;
-  const std::vector<double>& armed = run.column(kPhase, "armed");
-  const std::vector<double>& airborne = run.column(kPhase, "airborne");
+  const std::vector<double>& armed = run.column(kRecordedPhaseTopic, "armed");
+  const std::vector<double>& airborne = run.column(kRecordedPhaseTopic, "airborne");
   const std::vector<std::string>& modes = topic->texts("mode");
   for (std::size_t k = 0; k < std::min({armed.size(), airborne.size(), modes.size()}); ++k) {
     const double since = topic->time()[k];
@@ -36,7 +34,7 @@ std::vector<plot::Stretch> recorded_phases(const ReportRun& run) {
     if (out.empty() || out.back().name != name)
       out.push_back({since, since, name, airborne[k] > 0.5 ? style_of_phase(name) : ""});
   }
-  const std::vector<double>& estimates = run.time(kEstimate);
+  const std::vector<double>& estimates = run.time(kEstimateTopic);
   if (!out.empty() && !estimates.empty()) out.back().to = std::max(out.back().to, estimates.back());
   return out;
 }

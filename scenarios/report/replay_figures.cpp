@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 
 #include "scenarios/config/degrees.hpp"
+#include "scenarios/record/topics.hpp"
 #include "scenarios/report/flight_data.hpp"
-#include "scenarios/report/topics.hpp"
 #include "scenarios/requirements/number_text.hpp"
 
 namespace ironbird::scenarios {
@@ -19,11 +19,6 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kAttitude = "/recorded/attitude";
-constexpr const char* kPosition = "/recorded/position";
-constexpr const char* kFix = "/recorded/fix";
-constexpr const char* kPhase = "/recorded/phase";
-constexpr const char* kDifference = "/compared/difference";
 constexpr const char* kRecordedStyle = "command plain";
 constexpr const char* kFixStyle = "c7 dots";
 
@@ -240,8 +235,9 @@ void add_bias(plot::Panel& panel, const std::vector<ReportRun>& runs, std::size_
 }  // namespace
 
 bool is_replay(const ReportRun& run) {
-  return run.log().topic(kPosition) != nullptr || run.log().topic(kAttitude) != nullptr ||
-         run.log().topic(kFix) != nullptr || run.log().topic(kPhase) != nullptr;
+  return run.log().topic(kRecordedPositionTopic) != nullptr ||
+         run.log().topic(kRecordedAttitudeTopic) != nullptr ||
+         run.log().topic(kRecordedFixTopic) != nullptr || run.log().topic(kRecordedPhaseTopic) != nullptr;
 }
 
 plot::Plane replayed_path(const std::vector<ReportRun>& runs) {
@@ -253,10 +249,12 @@ plot::Plane replayed_path(const std::vector<ReportRun>& runs) {
     if (!found.points.empty()) plane.tracks.push_back(std::move(found));
   };
   const ReportRun& first = runs.front();
-  const Curve known = curve_of(first, kPosition, "position_known");
-  track(recorded_name(first), kRecordedStyle, where(curve_of(first, kPosition, "p_NB_N.x"), known),
-        where(curve_of(first, kPosition, "p_NB_N.y"), known));
-  track("fixes", kFixStyle, curve_of(first, kFix, "p_N.x"), curve_of(first, kFix, "p_N.y"));
+  const Curve known = curve_of(first, kRecordedPositionTopic, "position_known");
+  track(recorded_name(first), kRecordedStyle,
+        where(curve_of(first, kRecordedPositionTopic, "p_NB_N.x"), known),
+        where(curve_of(first, kRecordedPositionTopic, "p_NB_N.y"), known));
+  track("fixes", kFixStyle, curve_of(first, kRecordedFixTopic, "p_N.x"),
+        curve_of(first, kRecordedFixTopic, "p_N.y"));
   for (std::size_t i = 0; i < runs.size(); ++i)
     track(label(runs, i), colour(i), estimate_of(runs[i], "p_NB_N.x"), estimate_of(runs[i], "p_NB_N.y"));
   return plane;
@@ -270,8 +268,9 @@ plot::TimeStack replayed_position(const std::vector<ReportRun>& runs) {
     const std::string field = std::string("p_NB_N") + axis.suffix;
     const char* const known = axis.suffix == kAxes[2].suffix ? "height_known" : "position_known";
     add(panel, recorded_name(first), kRecordedStyle,
-        where(curve_of(first, kPosition, field), curve_of(first, kPosition, known)));
-    add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("p_N") + axis.suffix));
+        where(curve_of(first, kRecordedPositionTopic, field),
+              curve_of(first, kRecordedPositionTopic, known)));
+    add(panel, "fixes", kFixStyle, curve_of(first, kRecordedFixTopic, std::string("p_N") + axis.suffix));
     for (std::size_t i = 0; i < runs.size(); ++i)
       add(panel, label(runs, i), colour(i), estimate_of(runs[i], field));
     stack.panels.push_back(std::move(panel));
@@ -287,9 +286,9 @@ plot::TimeStack replayed_velocity(const std::vector<ReportRun>& runs) {
   for (std::size_t k = 0; k < kAxes.size(); ++k) {
     plot::Panel panel = panel_of(kAxes[k].title, "m/s", 0.5);
     add(panel, recorded_name(first), kRecordedStyle,
-        where(curve_of(first, kPosition, std::string("v_NB_N") + kAxes[k].suffix),
-              curve_of(first, kPosition, "velocity_known")));
-    add(panel, "fixes", kFixStyle, curve_of(first, kFix, std::string("v_N") + kAxes[k].suffix));
+        where(curve_of(first, kRecordedPositionTopic, std::string("v_NB_N") + kAxes[k].suffix),
+              curve_of(first, kRecordedPositionTopic, "velocity_known")));
+    add(panel, "fixes", kFixStyle, curve_of(first, kRecordedFixTopic, std::string("v_N") + kAxes[k].suffix));
     for (std::size_t i = 0; i < runs.size(); ++i) add(panel, label(runs, i), colour(i), ours[i][k]);
     stack.panels.push_back(std::move(panel));
   }
@@ -298,7 +297,7 @@ plot::TimeStack replayed_velocity(const std::vector<ReportRun>& runs) {
 
 plot::TimeStack replayed_attitude(const std::vector<ReportRun>& runs) {
   plot::TimeStack stack{"Attitude", {}, 1180.0, 100.0};
-  const Curves recorded = angles_of(runs.front(), kAttitude, "q_NB");
+  const Curves recorded = angles_of(runs.front(), kRecordedAttitudeTopic, "q_NB");
   constexpr std::array<const char*, 3> kNames{"roll", "pitch", "heading"};
   for (std::size_t k = 0; k < kNames.size(); ++k) {
     plot::Panel panel = panel_of(kNames[k], "deg", k == 2 ? 4.0 : 2.0);
@@ -344,7 +343,7 @@ plot::TimeStack replayed_differences(const std::vector<ReportRun>& runs) {
                                 scaled(sigma, -1.0).value, sigma.value});
       }
       add(panel, label(runs, i), colour(i),
-          without_gaps(scaled(curve_of(runs[i], kDifference, row.field), row.factor)));
+          without_gaps(scaled(curve_of(runs[i], kDifferenceTopic, row.field), row.factor)));
     }
     if (panel.series.empty()) panel.strips.clear();
     stack.panels.push_back(std::move(panel));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/record/topics.hpp"
 #include "scenarios/requirements/verdict_json.hpp"
 
 namespace ironbird::scenarios {
@@ -58,7 +59,7 @@ std::string ReportRun::about(std::string_view key) const {
 std::vector<RunEvent> ReportRun::events() const {
   if (verdict_) return verdict_->events;
   std::vector<RunEvent> events;
-  const LogTopic* topic = log_.topic("/bench/event");
+  const LogTopic* topic = log_.topic(kEventTopic);
   if (topic == nullptr) return events;
   try {
     const std::vector<std::string>& kinds = topic->texts("kind");

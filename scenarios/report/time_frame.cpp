@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "scenarios/record/topics.hpp"
 #include "scenarios/report/figures.hpp"
 #include "scenarios/report/flight_data.hpp"
 #include "scenarios/report/replay_figures.hpp"
@@ -14,7 +15,7 @@ namespace {
 /// The phases of the first run that has any.
 std::vector<plot::Stretch> phases_of(const ReportRun& run) {
   std::vector<plot::Stretch> out;
-  const Curve phase = curve_of(run, "/autopilot/flight", "phase");
+  const Curve phase = curve_of(run, kFlightTopic, "phase");
   for (std::size_t i = 0; i < phase.time.size(); ++i) {
     const auto number = static_cast<std::size_t>(std::max(0.0, phase.value[i]));
     const auto names = enumerators(autopilot::FlightPhase{});
@@ -50,8 +51,7 @@ std::string label_of(const RunEvent& event) {
 plot::TimeFrame time_frame(const std::vector<ReportRun>& runs) {
   plot::TimeFrame frame;
   for (const ReportRun& run : runs) {
-    for (const char* topic :
-         {"/truth/state", "/autopilot/estimate", "/autopilot/trajectory", "/autopilot/flight"}) {
+    for (const char* topic : {kTruthTopic, kEstimateTopic, kTrajectoryTopic, kFlightTopic}) {
       const std::vector<double>& time = run.time(topic);
       if (time.empty()) continue;
       frame.range.include(time.front());

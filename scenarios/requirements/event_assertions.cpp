@@ -9,8 +9,6 @@
 
 namespace ironbird::scenarios {
 
-namespace {}  // namespace
-
 void ConditionAssertion::sample(double time) {
   if (!condition_.present() || broken_at_) return;
   const double margin = condition_.margin();

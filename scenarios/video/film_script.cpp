@@ -13,6 +13,7 @@
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/held_column.hpp"
 #include "scenarios/record/logged_route.hpp"
+#include "scenarios/record/topics.hpp"
 #include "scenarios/video/film_shots.hpp"
 #include "scenarios/video/pose_track.hpp"
 
@@ -115,15 +116,15 @@ class Director {
   Director(const Log& log, const FilmOptions& options, RouteSpan route)
       : options_(options),
         route_(route),
-        shown_topic_(need(log, options.from_estimate ? "/autopilot/estimate" : "/truth/state")),
+        shown_topic_(need(log, options.from_estimate ? kEstimateTopic : kTruthTopic)),
         shown_(shown_topic_),
-        estimate_topic_(log.topic("/autopilot/estimate")),
+        estimate_topic_(log.topic(kEstimateTopic)),
         health_(estimate_topic_, "health", 1.0),
-        events_(log.topic("/bench/event")),
-        phase_(log.topic("/autopilot/flight"), "phase", -1.0),
-        operator_setpoint_(log.topic("/autopilot/flight"), "operator_setpoint", 0.0),
-        reached_(log.topic("/autopilot/trajectory"), "reached", 0.0),
-        trajectory_(log.topic("/autopilot/trajectory")),
+        events_(log.topic(kEventTopic)),
+        phase_(log.topic(kFlightTopic), "phase", -1.0),
+        operator_setpoint_(log.topic(kFlightTopic), "operator_setpoint", 0.0),
+        reached_(log.topic(kTrajectoryTopic), "reached", 0.0),
+        trajectory_(log.topic(kTrajectoryTopic)),
         valid_(trajectory_, "valid", 0.0),
         wanted_{HeldColumn(trajectory_, "p_N.x", 0.0), HeldColumn(trajectory_, "p_N.y", 0.0),
                 HeldColumn(trajectory_, "p_N.z", 0.0)} {

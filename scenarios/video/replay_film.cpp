@@ -13,6 +13,7 @@
 #include "autopilot/types/state_estimate.hpp"
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/record/held_column.hpp"
+#include "scenarios/record/topics.hpp"
 #include "scenarios/video/film_shots.hpp"
 #include "scenarios/video/pose_track.hpp"
 
@@ -22,14 +23,6 @@ namespace {
 using simulator::Pose;
 using simulator::Quaternion;
 using simulator::Vector3;
-
-constexpr const char* kEstimate = "/autopilot/estimate";
-constexpr const char* kPosition = "/recorded/position";
-constexpr const char* kAttitude = "/recorded/attitude";
-constexpr const char* kFix = "/recorded/fix";
-constexpr const char* kPhase = "/recorded/phase";
-constexpr const char* kOrigin = "/recorded/origin";
-constexpr const char* kDifference = "/compared/difference";
 
 constexpr double kTurning = 400.0;   // rad/s, of rotors of which nothing is known but that they turn
 constexpr double kLongestGap = 2.0;  // s without a recorded estimate, after which it has no place
@@ -78,10 +71,11 @@ class Between {
 class RecordedTrack {
  public:
   explicit RecordedTrack(const Log& log) {
-    if (!has(log, kPosition) || !has(log, kAttitude)) return;
-    position_.emplace(*log.topic(kPosition), std::vector<std::string>{"p_NB_N.x", "p_NB_N.y", "p_NB_N.z",
-                                                                      "position_known", "height_known"});
-    attitude_.emplace(*log.topic(kAttitude),
+    if (!has(log, kRecordedPositionTopic) || !has(log, kRecordedAttitudeTopic)) return;
+    position_.emplace(
+        *log.topic(kRecordedPositionTopic),
+        std::vector<std::string>{"p_NB_N.x", "p_NB_N.y", "p_NB_N.z", "position_known", "height_known"});
+    attitude_.emplace(*log.topic(kRecordedAttitudeTopic),
                       std::vector<std::string>{"q_NB.w", "q_NB.x", "q_NB.y", "q_NB.z"});
   }
   /// Nothing where it is not known. Times must be asked in order.
@@ -104,8 +98,8 @@ class RecordedTrack {
 
 /// When there is an estimate for the first time, s.
 double ready_time(const Log& log) {
-  if (has(log, kEstimate)) {
-    const LogTopic& estimate = *log.topic(kEstimate);
+  if (has(log, kEstimateTopic)) {
+    const LogTopic& estimate = *log.topic(kEstimateTopic);
     const std::vector<double>& health = estimate.column("health");
     for (std::size_t i = 0; i < health.size(); ++i) {
       if (health[i] != static_cast<double>(autopilot::Health::kUninitialised)) return estimate.time()[i];
@@ -116,9 +110,9 @@ double ready_time(const Log& log) {
 
 /// By how much ours counts down further than the recorded one, m: the median of the differences.
 double down_apart(const Log& log) {
-  if (!has(log, kDifference)) return 0.0;
+  if (!has(log, kDifferenceTopic)) return 0.0;
   std::vector<double> differences;
-  for (const double down : log.topic(kDifference)->column("p_N.z")) {
+  for (const double down : log.topic(kDifferenceTopic)->column("p_N.z")) {
     if (std::isfinite(down)) differences.push_back(down);
   }
   if (differences.empty()) return 0.0;
@@ -132,15 +126,15 @@ class ReplayDirector {
   ReplayDirector(const Log& log, const FilmOptions& options)
       : log_(log),
         options_(options),
-        ours_(*log.topic(kEstimate)),
+        ours_(*log.topic(kEstimateTopic)),
         recorded_(log),
-        armed_(log.topic(kPhase), "armed", 1.0),
-        health_(log.topic(kEstimate), "health", 1.0),
+        armed_(log.topic(kRecordedPhaseTopic), "armed", 1.0),
+        health_(log.topic(kEstimateTopic), "health", 1.0),
         whose_(about(log, "recorded", "recorded")),
         down_apart_(down_apart(log)) {}
 
   void shoot(FilmScript& script, double ready) {
-    for (const double time : frame_times(kEstimate, ready, ours_.end(), options_)) {
+    for (const double time : frame_times(kEstimateTopic, ready, ours_.end(), options_)) {
       script.frames.push_back(frame(time));
     }
     find_ground(script);
@@ -167,8 +161,8 @@ class ReplayDirector {
 
   /// The phase at a time, in the recorder's words.
   std::string phase_at(double time) const {
-    if (!has(log_, kPhase)) return "";
-    const LogTopic& phase = *log_.topic(kPhase);
+    if (!has(log_, kRecordedPhaseTopic)) return "";
+    const LogTopic& phase = *log_.topic(kRecordedPhaseTopic);
     const auto after = std::upper_bound(phase.time().begin(), phase.time().end(), time);
     if (after == phase.time().begin()) return "";
     const auto k = static_cast<std::size_t>(after - phase.time().begin()) - 1;
@@ -189,8 +183,8 @@ class ReplayDirector {
                                        [this](const FilmFrame& frame) { return !is_airborne(frame.time); });
     if (standing != script.frames.end()) {
       ground_down_ = standing->truth.pose.p_NB_N.z();
-    } else if (has(log_, kOrigin)) {
-      ground_down_ = log_.topic(kOrigin)->column("p_N.z").front() + down_apart_;
+    } else if (has(log_, kRecordedOriginTopic)) {
+      ground_down_ = log_.topic(kRecordedOriginTopic)->column("p_N.z").front() + down_apart_;
     }
     for (const FilmFrame& frame : script.frames) {
       const double down = frame.truth.pose.p_NB_N.z();
@@ -224,8 +218,8 @@ class ReplayDirector {
   }
 
   void add_fixes(FilmScript& script) const {
-    if (!has(log_, kFix)) return;
-    const LogTopic& fixes = *log_.topic(kFix);
+    if (!has(log_, kRecordedFixTopic)) return;
+    const LogTopic& fixes = *log_.topic(kRecordedFixTopic);
     for (std::size_t i = 0; i < fixes.time().size(); ++i) {
       script.fixes.push_back(
           {fixes.time()[i],
@@ -248,7 +242,8 @@ class ReplayDirector {
 }  // namespace
 
 bool is_replayed(const Log& log) {
-  return has(log, kPosition) || has(log, kAttitude) || has(log, kFix) || has(log, kPhase);
+  return has(log, kRecordedPositionTopic) || has(log, kRecordedAttitudeTopic) ||
+         has(log, kRecordedFixTopic) || has(log, kRecordedPhaseTopic);
 }
 
 FilmScript replay_film_script(const Log& log, const FilmOptions& options) {
