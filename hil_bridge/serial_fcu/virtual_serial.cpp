@@ -7,6 +7,7 @@
 #include <string>
 
 #include "hil_bridge/rosflight/frame_codec.hpp"
+#include "hil_bridge/transport/awake_cores.hpp"
 #include "hil_bridge/transport/pseudo_terminal.hpp"
 #include "hil_bridge/transport/serial_port.hpp"
 #include "hil_bridge/virtual_fcu/served_fcu.hpp"
@@ -92,6 +93,7 @@ struct VirtualSerialFcu::Line {
     } while (!served.all_given() || here.bytes_read() < there.bytes_written());
   }
 
+  transport::AwakeCores awake;  // a tick waits twice for the kernel to carry bytes
   Fcu& unit;
   transport::PseudoTerminal terminal;
   transport::SerialPort port;

@@ -15,6 +15,7 @@
 
 #include "hil_bridge/executive/monotonic_clock.hpp"
 #include "hil_bridge/executive/real_time_rights.hpp"
+#include "hil_bridge/transport/awake_cores.hpp"
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/app/live_watchdog.hpp"
 #include "scenarios/bench/expected_end.hpp"
@@ -81,7 +82,10 @@ class ControlThread {
 
  private:
   void run() {
+    const hil_bridge::transport::AwakeCores awake;
     note_ = hil_bridge::take_real_time_rights();
+    if (!note_.empty() && !awake.missing().empty()) note_ += "; ";
+    note_ += awake.missing();
     note_ready_ = true;
     try {
       while (!bench_.ended()) {

@@ -107,6 +107,7 @@ Time Spread::quantile(double share) const {
 
 std::string latency_text(const LatencyReport& report) {
   std::string text = "latency at " + report.where + "\n";
+  for (const std::string& right : report.missing) text += "  " + right + "\n";
   text += summary("round trip", report.round_trip, report.round_trip_meaning);
   text += summary("turn-around", report.turn_around, report.turn_around_meaning);
   text += summary("jitter", report.jitter, kJitterMeaning);
@@ -127,6 +128,7 @@ std::string latency_json(const LatencyReport& report) {
   json["round_trip"] = json_of(report.round_trip, report.round_trip_meaning);
   json["turn_around"] = json_of(report.turn_around, report.turn_around_meaning);
   json["jitter"] = json_of(report.jitter, kJitterMeaning);
+  json["missing"] = report.missing;
   return json.dump(2) + "\n";
 }
 

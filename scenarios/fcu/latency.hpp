@@ -25,7 +25,8 @@ struct LatencyReport {
   Spread round_trip;
   std::string turn_around_meaning;
   Spread turn_around;
-  Spread jitter;  ///< overshoot of clock_nanosleep, 1 ms at a time
+  Spread jitter;                     ///< overshoot of clock_nanosleep, 1 ms at a time
+  std::vector<std::string> missing;  ///< of what a run in real time asks of this machine, a line each
 };
 
 std::string latency_text(const LatencyReport& report);

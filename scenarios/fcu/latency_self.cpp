@@ -6,11 +6,13 @@
 #include <span>
 
 #include "autopilot/autopilot.hpp"
+#include "hil_bridge/executive/real_time_rights.hpp"
 #include "hil_bridge/interlock/command_check.hpp"
 #include "hil_bridge/rosflight/stream_decoder.hpp"
 #include "hil_bridge/serial_fcu/serial_fcu.hpp"
 #include "hil_bridge/translate/command_encoder.hpp"
 #include "hil_bridge/translate/sensor_frame_builder.hpp"
+#include "hil_bridge/transport/awake_cores.hpp"
 #include "hil_bridge/transport/machine_clock.hpp"
 #include "hil_bridge/transport/pseudo_terminal.hpp"
 #include "hil_bridge/transport/serial_port.hpp"
@@ -90,6 +92,7 @@ class StampedLine final : public ByteStream {
 
 /// The unit's process: a tick, then the wait for the command that answers it.
 void serve(const Scenario& scenario, PseudoTerminal& terminal, SharedTimes& round_trips) {
+  hil_bridge::take_real_time_rights();
   StampedLine line(terminal);
   ServedUnit unit(scenario, line);
   for (Time next = machine_time();; next = std::max(next + unit.period(), machine_time())) {
@@ -146,11 +149,14 @@ LatencyReport latency_of_self(const std::string& file, double seconds, const aut
   SharedTimes round_trips(kHourOfWakings);
   SharedTimes late(kHourOfWakings);
   Answerer answerer(terminal.device(), loaded, modules);
+  const hil_bridge::transport::AwakeCores awake;
   const SideProcess unit([&] { serve(loaded.scenario, terminal, round_trips); });
   const SideProcess sleeper([&] { measure_jitter(late); });
+  LatencyReport report;
+  report.missing = {hil_bridge::take_real_time_rights(), awake.missing()};
+  std::erase(report.missing, "");
   const Time end = machine_time() + from_seconds(seconds);
   while (machine_time() < end && !interrupt_requested()) answerer.look();
-  LatencyReport report;
   report.where = "a pseudo-terminal of this machine, unit of " + loaded.name;
   report.round_trip_meaning = "IMU frame leaves the unit to command frame there, autopilot included";
   report.round_trip = Spread(round_trips.all());

@@ -1,0 +1,30 @@
+#include "hil_bridge/transport/awake_cores.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+
+namespace ironbird::hil_bridge::transport {
+namespace {
+
+constexpr const char* kDevice = "/dev/cpu_dma_latency";
+
+TEST(AwakeCores, HaveTheKernelsWordOrSayHowToGetIt) {
+  const AwakeCores awake;
+  const FileDescriptor device(open(kDevice, O_RDONLY | O_CLOEXEC));
+  if (access(kDevice, W_OK) != 0) {
+    EXPECT_THAT(awake.missing(), testing::HasSubstr(kDevice));
+    return;
+  }
+  EXPECT_EQ(awake.missing(), "");
+  // What all programs' wishes come to, us.
+  std::int32_t granted = -1;
+  ASSERT_EQ(read(device.number(), &granted, sizeof granted), static_cast<ssize_t>(sizeof granted));
+  EXPECT_EQ(granted, 0);
+}
+
+}  // namespace
+}  // namespace ironbird::hil_bridge::transport
