@@ -17,8 +17,9 @@ AwakeCores::AwakeCores() : wish_(::open(kDevice, O_WRONLY | O_CLOEXEC)) {
   constexpr std::int32_t kLatency = 0;  // us
   if (wish_ && ::write(wish_.number(), &kLatency, sizeof kLatency) == sizeof kLatency) return;
   wish_.close();
-  missing_ = std::string("no right to keep idle cores awake: a command may be 0.1 ms later; allow it with a udev "
-                         "rule by which you may write ") +
+  missing_ = std::string(
+                 "no right to keep idle cores awake: a command may be 0.1 ms later; allow it with a udev "
+                 "rule by which you may write ") +
              kDevice;
 }
 
