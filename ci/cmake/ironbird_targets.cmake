@@ -94,8 +94,13 @@ endif()
 # headers and templates that they share. A name in an anonymous namespace is therefore unique within its target. Sources
 # with options or definitions of their own are compiled alone.
 function(ironbird_unite target)
+  cmake_parse_arguments(arg "" "TIMES" "" ${ARGN})
+  if(NOT arg_TIMES)
+    set(arg_TIMES 1)
+  endif()
   if(IRONBIRD_UNITY_FILES GREATER 1)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${IRONBIRD_UNITY_FILES})
+    math(EXPR files "${arg_TIMES} * ${IRONBIRD_UNITY_FILES}")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
     # GCC takes a source that is included for a header, in which a class may not have a member of an unnamed namespace's.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
@@ -165,7 +170,7 @@ function(ironbird_test)
   endif()
   target_compile_options(${target} PRIVATE ${${variant}_options})
   ironbird_reuse_headers(${target} tests VARIANT ${variant})
-  ironbird_unite(${target})
+  ironbird_unite(${target} TIMES 2)  # they share GoogleTest's templates, too
   if(arg_WHOLE OR arg_RUNNER)
     add_test(NAME ${target} COMMAND ${arg_RUNNER} $<TARGET_FILE:${target}> WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${target} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
