@@ -61,7 +61,7 @@ endfunction()
 set(headers <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional>
             <limits> <map> <memory> <numbers> <optional> <span> <sstream> <stdexcept> <string> <string_view> <utility>
             <variant> <vector>)
-# No fuzz target finds its way through the wings, which read no wire and no file, nor through the tests' own code. Told of each
+# No fuzz target finds its way through the wings, into which no bytes from outside come, nor through the tests' own code. Told of each
 # comparison that the sanitizers make, the filters would run at less than half their speed.
 set(untold -fno-sanitize=fuzzer-no-link)
 ironbird_precompiled(libraries HEADERS ${headers} LINKS Eigen3::Eigen)

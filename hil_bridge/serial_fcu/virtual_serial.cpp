@@ -93,7 +93,7 @@ struct VirtualSerialFcu::Line {
     } while (!served.all_given() || here.bytes_read() < there.bytes_written());
   }
 
-  transport::AwakeCores awake;  // a tick waits twice for the kernel to carry bytes
+  transport::AwakeCores awake;  // where it may: a tick waits twice for the kernel to carry bytes
   Fcu& unit;
   transport::PseudoTerminal terminal;
   transport::SerialPort port;

@@ -29,6 +29,7 @@ struct VirtualSerialConfig {
 /// commands are those of the unit without the line, bit for bit.
 ///
 /// Lock-step needs no thread: after each tick both ends read until as many bytes have arrived as were sent.
+/// Cores are kept awake meanwhile (awake_cores.hpp), where that is permitted.
 /// Faults of the line are decided frame by frame, in time of the run: same seed, same faults.
 class VirtualSerialFcu final : public Fcu {
  public:

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "hil_bridge/executive/real_time_rights.hpp"
 #include "hil_bridge/transport/machine_clock.hpp"
 #include "scenarios/app/interrupt.hpp"
 #include "scenarios/bench/run_time.hpp"
@@ -47,7 +48,8 @@ std::string summary(const char* name, const Spread& spread, const std::string& m
          ": " + meaning + "\n";
 }
 
-constexpr const char* kJitterMeaning = "how late this machine woke a sleeper in the same time";
+constexpr const char* kJitterMeaning =
+    "how late this machine woke a sleeper without priority in the same time";
 
 nlohmann::ordered_json json_of(const Spread& spread, const std::string& meaning) {
   return {{"meaning", meaning},
@@ -105,6 +107,12 @@ Time Spread::quantile(double share) const {
   return times[std::max<std::size_t>(rank, 1) - 1];
 }
 
+std::vector<std::string> take_rights_of_a_run(const hil_bridge::transport::AwakeCores& awake) {
+  std::vector<std::string> missing{hil_bridge::take_real_time_rights(), awake.missing()};
+  std::erase(missing, "");
+  return missing;
+}
+
 std::string latency_text(const LatencyReport& report) {
   std::string text = "latency at " + report.where + "\n";
   for (const std::string& right : report.missing) text += "  " + right + "\n";
@@ -136,14 +144,16 @@ LatencyReport latency_of_line(const UnitAddress& address, double seconds) {
   SharedTimes late(kHourOfWakings);
   UnitOnLine unit(address, UnitOnLine::Talk::kQuestions);
   unit.meet();
+  const hil_bridge::transport::AwakeCores awake;
   const SideProcess sleeper([&] { measure_jitter(late); });
+  LatencyReport report;
+  report.missing = take_rights_of_a_run(awake);
   Asker asker(unit);
   const Time end = machine_time() + from_seconds(seconds);
   while (machine_time() < end && !interrupt_requested()) asker.look();
   if (asker.round_trip.empty() && !interrupt_requested()) {
     throw hil_bridge::transport::LinkError(unit.name() + ": the unit answered no question for its clock");
   }
-  LatencyReport report;
   report.where = unit.name();
   report.round_trip_meaning = "question for the unit's clock to its answer; a unit answers in its next pass";
   report.round_trip = Spread(asker.round_trip);

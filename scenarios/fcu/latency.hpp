@@ -5,6 +5,7 @@
 
 #include "autopilot/modules.hpp"
 #include "hil_bridge/fcu/fcu.hpp"
+#include "hil_bridge/transport/awake_cores.hpp"
 #include "scenarios/fcu/unit_line.hpp"
 
 namespace ironbird::scenarios {
@@ -28,6 +29,10 @@ struct LatencyReport {
   Spread jitter;                     ///< overshoot of clock_nanosleep, 1 ms at a time
   std::vector<std::string> missing;  ///< of what a run in real time asks of this machine, a line each
 };
+
+/// Takes the rights of a run in real time for this thread; processes that measure beside it are begun before.
+/// @return what this machine did not grant, a line each
+std::vector<std::string> take_rights_of_a_run(const hil_bridge::transport::AwakeCores& awake);
 
 std::string latency_text(const LatencyReport& report);
 std::string latency_json(const LatencyReport& report);

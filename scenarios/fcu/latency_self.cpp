@@ -153,8 +153,7 @@ LatencyReport latency_of_self(const std::string& file, double seconds, const aut
   const SideProcess unit([&] { serve(loaded.scenario, terminal, round_trips); });
   const SideProcess sleeper([&] { measure_jitter(late); });
   LatencyReport report;
-  report.missing = {hil_bridge::take_real_time_rights(), awake.missing()};
-  std::erase(report.missing, "");
+  report.missing = take_rights_of_a_run(awake);
   const Time end = machine_time() + from_seconds(seconds);
   while (machine_time() < end && !interrupt_requested()) answerer.look();
   report.where = "a pseudo-terminal of this machine, unit of " + loaded.name;

@@ -36,19 +36,19 @@ class ImuReader {
     std::size_t invalid = 0;
     for (std::size_t k = 0; k < imu_.size() && !stepped_back_; ++k) {
       if (!is_wanted(k)) continue;
-      ImuSample sample;
-      sample.when = imu_.published(k);
-      sample.force = imu_.vector(k, forces);
-      sample.rate = imu_.vector(k, rates);
+      RecordedImuSample sample;
+      sample.stamp = imu_.published(k);
+      sample.f_B = imu_.vector(k, forces);
+      sample.w_NB_B = imu_.vector(k, rates);
       if (imu_.integer(k, relative) == kInvalidSample) {
-        sample.force.setConstant(std::numeric_limits<double>::quiet_NaN());
+        sample.f_B.setConstant(std::numeric_limits<double>::quiet_NaN());
       }
       if (!sample.is_finite()) ++invalid;
       // Before 1.7 in seconds.
       const double us = imu_.number(k, length) * (length && length->type == UlogType::kFloat ? 1e6 : 1.0);
       if (us > 0.0 && us < kLongestLength) sample.length = Time(std::llround(1e3 * us));
       samples_.push_back(sample);
-      before_ = sample.when;
+      before_ = sample.stamp;
     }
     log_.end = before_.value_or(Time::zero());
     log_.remark_count(doubted_, "samples of the IMU with stamps that the others do not share passed over");
@@ -57,7 +57,7 @@ class ImuReader {
                       "samples of the IMU that the log lacks taken from their neighbours");
     std::vector<hil_bridge::Arrival> messages;
     messages.reserve(samples_.size());
-    for (const ImuSample& sample : samples_) messages.push_back({sample.when, message_of(sample)});
+    for (const RecordedImuSample& sample : samples_) messages.push_back({sample.stamp, message_of(sample)});
     return messages;
   }
 
@@ -106,16 +106,16 @@ class ImuReader {
     return false;
   }
 
-  static rosflight::SmallImu message_of(const ImuSample& sample) {
-    const Eigen::Vector3f f = sample.force.cast<float>();
-    const Eigen::Vector3f w = sample.rate.cast<float>();
-    return {wire_stamp(sample.when), f.x(), f.y(), f.z(), w.x(), w.y(), w.z(), 0.0F};
+  static rosflight::SmallImu message_of(const RecordedImuSample& sample) {
+    const Eigen::Vector3f f = sample.f_B.cast<float>();
+    const Eigen::Vector3f w = sample.w_NB_B.cast<float>();
+    return {wire_stamp(sample.stamp), f.x(), f.y(), f.z(), w.x(), w.y(), w.z(), 0.0F};
   }
 
   Px4Log& log_;
   Px4Records imu_;
   std::optional<Time> before_;
-  std::vector<ImuSample> samples_;
+  std::vector<RecordedImuSample> samples_;
   std::size_t doubted_ = 0;
   bool stepped_back_ = false;
 };

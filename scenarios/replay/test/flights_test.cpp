@@ -54,7 +54,7 @@ constexpr Bounds kEuler{"ekf", 0.25, 0.30, 1.0, 0.8, 5.0};
 constexpr Bounds kErrorState{"error_state", 0.15, 0.20, 0.5, 0.5, 4.0};
 
 /// Bounds of a flight on which one is not reached: what is, with little to spare. On the V6C, PX4 flew on the
-/// other magnetometer and stepped its heading; from 12 s on it is within a degree of ours.
+/// other magnetometer and stepped its heading; from 12 s on the two are within a degree.
 Bounds reached(const KnownFlight& flight, Bounds bounds) {
   if (bounds.kind != std::string("error_state")) return bounds;
   if (flight.file == std::string("v6c_quad_mission_two_mags")) bounds.heading = 4.7;
@@ -125,7 +125,7 @@ std::string choice(const KnownFlight& flight, const char* kind) {
 
 // A recorder that is switched on in flight: no second at rest, no ground. One that strays is off by metres;
 // the bounds are those of a whole flight where they can be, twice as wide for angles, of which a start knows
-// less (on the X8, which shakes, a roll of up to 1.6 degrees was seen).
+// less (on the X8, which shakes, a roll of up to 1.2 degrees was seen).
 TEST(FlightsTest, StartsAnywhereInTheAir) {
   IRONBIRD_NEEDS_FLIGHTS();
   for (const KnownFlight& flight : test::kKnownFlights) {
