@@ -67,6 +67,7 @@ set(untold -fno-sanitize=fuzzer-no-link)
 ironbird_precompiled(libraries HEADERS ${headers} LINKS Eigen3::Eigen)
 if(sanitised)
   ironbird_precompiled(libraries VARIANT of_the_wings HEADERS ${headers} LINKS Eigen3::Eigen OPTIONS ${untold})
+  ironbird_precompiled(libraries VARIANT that_run_once HEADERS ${headers} LINKS Eigen3::Eigen OPTIONS -O0)
 endif()
 function(ironbird_room_in_wings result)
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE room)
@@ -106,10 +107,11 @@ function(ironbird_unite target)
   endif()
 endfunction()
 
-# ironbird_library(NAME simulator_mujoco SOURCES a.cpp ... LINKS simulator mujoco::mujoco)
-#   makes the static library ironbird_NAME and its alias ironbird::NAME.
+# ironbird_library(NAME simulator_mujoco SOURCES a.cpp ... LINKS simulator mujoco::mujoco [RUNS_ONCE])
+#   makes the static library ironbird_NAME and its alias ironbird::NAME. What RUNS_ONCE a run and not once a tick is not
+#   optimised where it is sanitised: compiling it takes longer than running it.
 function(ironbird_library)
-  cmake_parse_arguments(arg "" "NAME" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(arg "RUNS_ONCE" "NAME" "SOURCES;LINKS" ${ARGN})
   set(target ironbird_${arg_NAME})
   add_library(${target} STATIC ${arg_SOURCES})
   add_library(ironbird::${arg_NAME} ALIAS ${target})
@@ -120,6 +122,9 @@ function(ironbird_library)
   if(sanitised AND in_wings)
     target_compile_options(${target} PRIVATE ${untold})
     ironbird_reuse_headers(${target} libraries VARIANT of_the_wings)
+  elseif(sanitised AND arg_RUNS_ONCE)
+    target_compile_options(${target} PRIVATE -O0)
+    ironbird_reuse_headers(${target} libraries VARIANT that_run_once)
   else()
     ironbird_reuse_headers(${target} libraries)
   endif()
@@ -136,10 +141,11 @@ function(ironbird_export)
 endfunction()
 
 # ironbird_test(NAME estimator SOURCES ekf_test.cpp ... LINKS ironbird::autopilot [LABELS slow] [WHOLE])
-#   makes the program NAME_test and registers each of its cases with CTest under LABELS (default: unit). With WHOLE the
-#   program is registered as one CTest case, for cases that share what they flew. RUNNER is a command that runs the
-#   program, as one case: ci/with_vcan. With IRONBIRD_WHOLE_TESTS, where starting a program costs more than most cases,
-#   every program is registered whole, a long one in PARTS that run at the same time.
+#   makes the program NAME_test and registers each of its cases with CTest under LABELS. With WHOLE the program is
+#   registered as one CTest case, for cases that share what they flew. RUNNER is a command that runs the program, as one
+#   case: ci/with_vcan. Unit tests, those without LABELS, are registered whole, too, because starting a program costs more
+#   than most of their cases, a long one in PARTS that run at the same time; their cases have the label `case`, for
+#   ctest -R. With IRONBIRD_WHOLE_TESTS no program is registered by its cases.
 function(ironbird_test)
   if(NOT IRONBIRD_TESTS)
     return()
@@ -174,11 +180,16 @@ function(ironbird_test)
   if(arg_WHOLE OR arg_RUNNER)
     add_test(NAME ${target} COMMAND ${arg_RUNNER} $<TARGET_FILE:${target}> WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
     set_tests_properties(${target} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
-  elseif(IRONBIRD_WHOLE_TESTS)
+    return()
+  endif()
+  set(label_of_cases "${arg_LABELS}")
+  if(IRONBIRD_WHOLE_TESTS OR unit IN_LIST arg_LABELS)
     ironbird_test_in_parts(${target} "${arg_LABELS}" ${arg_TIMEOUT} "${arg_PARTS}")
-  else()
+    set(label_of_cases case)
+  endif()
+  if(NOT IRONBIRD_WHOLE_TESTS)
     gtest_discover_tests(${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} DISCOVERY_TIMEOUT ${discovery}
-                         PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+                         PROPERTIES LABELS "${label_of_cases}" TIMEOUT ${arg_TIMEOUT})
   endif()
 endfunction()
 

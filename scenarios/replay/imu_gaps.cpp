@@ -16,7 +16,7 @@ namespace {
 using hil_bridge::Time;
 
 constexpr std::size_t kReach = 4;            // samples on either side
-constexpr double kMostMissing = 5.0;         // samples: a longer gap is a gap
+constexpr std::size_t kMostMissing = 5;      // samples: a longer gap is a gap
 constexpr std::size_t kEnoughWindows = 250;  // for eight weights
 constexpr std::size_t kMostWindows = 4000;   // more tell no more
 constexpr double kLoud = 10.0;               // medians of the energy: what is louder counts no more than this
@@ -26,6 +26,10 @@ using Axes = Eigen::Matrix<double, kAxes, 1>;  // f_B, w_NB_B
 
 Axes axes_of(const RecordedImuSample& sample) {
   return (Axes() << sample.f_B, sample.w_NB_B).finished();
+}
+
+double axis_of(const RecordedImuSample& sample, Eigen::Index axis) {
+  return axis < 3 ? sample.f_B[axis] : sample.w_NB_B[axis - 3];
 }
 
 /// What lies on either side of missing samples.
@@ -74,7 +78,7 @@ class GapFiller {
   explicit GapFiller(const std::vector<RecordedImuSample>& samples) : samples_(samples) {
     runs_.reserve(samples.size());
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      const bool goes_on = k > 0 && missing_before(k) == 0.0;
+      const bool goes_on = k > 0 && missing_before(k).value_or(0) == 0;
       if (!samples[k].is_finite()) {
         runs_.push_back(0);
       } else {
@@ -88,11 +92,11 @@ class GapFiller {
     std::vector<RecordedImuSample> all;
     all.reserve(samples_.size());
     for (std::size_t k = 0; k < samples_.size(); ++k) {
-      const double missing = k > 0 ? missing_before(k) : 0.0;
+      const std::size_t missing = k > 0 ? missing_before(k).value_or(0) : 0;
       const bool has_ends = k > 0 && runs_[k] > 0 && runs_[k - 1] > 0;
-      if (missing >= 1.0 && missing <= kMostMissing && has_ends) {
+      if (missing > 0 && missing <= kMostMissing && has_ends) {
         // Only what was recorded foretells: what follows from itself need not stay bounded.
-        put_in(all, k, {runs_[k - 1], static_cast<std::size_t>(missing), run_from(k)});
+        put_in(all, k, {runs_[k - 1], missing, run_from(k)});
       }
       all.push_back(samples_[k]);
     }
@@ -100,12 +104,12 @@ class GapFiller {
   }
 
  private:
-  /// Samples between sample `k` and the one before it; 0 where that is not told.
-  double missing_before(std::size_t k) const {
+  /// Samples between sample `k` and the one before it; nothing where it does not tell its length.
+  std::optional<std::size_t> missing_before(std::size_t k) const {
     const auto length = static_cast<double>(samples_[k].length.count());
-    if (length <= 0.0) return 0.0;
+    if (length <= 0.0) return std::nullopt;
     const auto passed = static_cast<double>((samples_[k].stamp - samples_[k - 1].stamp).count());
-    return std::max(std::round(passed / length) - 1.0, 0.0);
+    return static_cast<std::size_t>(std::max(std::round(passed / length) - 1.0, 0.0));
   }
 
   /// How many samples follow each other from this one on, as far as they are of use.
@@ -195,7 +199,7 @@ class GapFiller {
     for (Eigen::Index row = 0; row < count; ++row) {
       const std::size_t begin = begins[static_cast<std::size_t>(row)];
       for (Eigen::Index i = 0; i < stretch.size(); ++i) {
-        stretch[i] = axes_of(samples_[begin + static_cast<std::size_t>(i)])[static_cast<Eigen::Index>(axis)];
+        stretch[i] = axis_of(samples_[begin + static_cast<std::size_t>(i)], static_cast<Eigen::Index>(axis));
       }
       windows.known.row(row) << stretch.head(before), stretch.tail(after);
       const double mean = windows.known.row(row).mean();

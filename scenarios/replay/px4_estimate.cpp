@@ -1,11 +1,16 @@
 #include "scenarios/replay/px4_estimate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "autopilot/math/local_map.hpp"
+#include "scenarios/bench/run_time.hpp"
 
 namespace ironbird::scenarios {
 
@@ -88,18 +93,41 @@ class PositionReader {
       xy_global_, latitude_, longitude_, altitude_;
 };
 
-/// How often a counter of PX4's resets moved while the IMU was logged.
-std::size_t steps_of(const Px4Log& log, const Px4Records& records, const char* counter) {
+std::string tenths(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f", value);
+  return text.data();
+}
+
+/// The records at which a counter of PX4's resets moved while the IMU was logged.
+std::vector<std::size_t> steps_of(const Px4Log& log, const Px4Records& records, const char* counter) {
   const auto place = records.find(counter);
   std::optional<std::int64_t> last;
-  std::size_t steps = 0;
+  std::vector<std::size_t> steps;
   for (std::size_t k = 0; place && k < records.size(); ++k) {
     if (!log.is_within(records.published(k))) continue;
     const std::int64_t value = records.integer(k, place);
-    if (last && value != *last) ++steps;
+    if (last && value != *last) steps.push_back(k);
     last = value;
   }
   return steps;
+}
+
+/// When PX4 set its heading anew and by how much: what follows is a difference of PX4's to itself.
+void remark_heading_steps(Px4Log& log, const Px4Records& local) {
+  constexpr std::size_t kListed = 5;
+  const std::vector<std::size_t> steps = steps_of(log, local, "heading_reset_counter");
+  if (steps.empty()) return;
+  const auto change = local.find("delta_heading");
+  std::string text = "PX4 stepped its heading";
+  for (std::size_t i = 0; i < std::min(steps.size(), kListed); ++i) {
+    const double when = to_seconds(local.published(steps[i]));
+    const double by = local.number(steps[i], change) / kRadiansPerDegree;
+    text += std::string(i == 0 ? " " : ", ") + (std::isfinite(by) ? "by " + tenths(by) + " deg " : "") +
+            "at " + tenths(when) + " s";
+  }
+  if (steps.size() > kListed) text += " and " + std::to_string(steps.size() - kListed) + " times more";
+  log.remark(std::move(text));
 }
 
 void add_positions(Px4Log& log, RecordedEstimate& px4) {
@@ -123,8 +151,8 @@ void add_positions(Px4Log& log, RecordedEstimate& px4) {
     px4.positions.push_back(position);
   }
   log.remark_count(moved, "times PX4 moved the origin of its positions: they are compared on the earth");
-  log.remark_count(steps_of(log, local, "xy_reset_counter"), "times PX4 stepped its position");
-  log.remark_count(steps_of(log, local, "heading_reset_counter"), "times PX4 stepped its heading");
+  log.remark_count(steps_of(log, local, "xy_reset_counter").size(), "times PX4 stepped its position");
+  remark_heading_steps(log, local);
 }
 
 }  // namespace

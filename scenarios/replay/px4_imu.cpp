@@ -54,7 +54,7 @@ class ImuReader {
     log_.remark_count(doubted_, "samples of the IMU with stamps that the others do not share passed over");
     log_.remark_count(invalid, "samples of the IMU are not valid: the estimators do without them");
     log_.remark_count(fill_gaps(samples_),
-                      "samples of the IMU that the log lacks taken from their neighbours");
+                      "samples of the IMU that the log lacks: foretold from those around them");
     std::vector<hil_bridge::Arrival> messages;
     messages.reserve(samples_.size());
     for (const RecordedImuSample& sample : samples_) messages.push_back({sample.stamp, message_of(sample)});

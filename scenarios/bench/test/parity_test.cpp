@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +21,9 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr int kRuns = 100;
+
+constexpr double kReference = 1.74;  // m; the paper's is 1.72 m
+constexpr double kTolerance = 0.2;   // m, around 1.7 m
 
 // The reference's sensors; models/rosflight_multirotor/sensors.toml.
 constexpr double kFixStep = 0.21 * 0.1;                   // m, of the Gauss-Markov process, every 0.1 s
@@ -36,7 +41,8 @@ constexpr double kStandardErrors = 3.0;
 
 using Figures = std::map<std::string, double>;
 
-Figures fly(std::uint64_t seed, const std::vector<std::pair<std::string, std::string>>& settings) {
+Figures fly(std::optional<std::uint64_t> seed,
+            const std::vector<std::pair<std::string, std::string>>& settings) {
   const autopilot::Modules modules = autopilot::standard_modules();
   const std::filesystem::path file =
       std::filesystem::path(IRONBIRD_SOURCE_DIR) / "scenarios/library/paper/parity_eight_minutes.toml";
@@ -128,6 +134,14 @@ Spread on_paper(double density, const Figure& figure) {
   return {mean, std::sqrt(squares / kDraws - square(mean))};
 }
 
+// Not a flight among many: what the scenario of the tree says to who flies it.
+TEST(ParityAsShippedTest, HasTheReferencesErrors) {
+  const Figures figures = fly(std::nullopt, {});
+  EXPECT_NEAR(figures.at("estimate_position_rms_m"), 1.7, kTolerance);
+  EXPECT_NEAR(figures.at("estimate_velocity_total_rms_mps"), 0.013, 0.002);
+  EXPECT_LE(figures.at("estimate_attitude_rms_deg"), 0.27);
+}
+
 class ParityTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -174,7 +188,6 @@ TEST_F(ParityTest, DriftsWithTheBarometerDownAroundTheErrorOfTheAirDensity) {
 }
 
 TEST_F(ParityTest, HasTheCalculatedPositionErrorAndTheReferencesAsAnOrdinaryDraw) {
-  constexpr double kReference = 1.74;  // m
   const double density = fly_quietly().at("estimate_down_rms_m");
   const Spread position = on_paper(density, [](const PaperFlight& f) { return std::sqrt(f.position); });
   const std::vector<double> flown = of("estimate_position_rms_m");
@@ -185,6 +198,13 @@ TEST_F(ParityTest, HasTheCalculatedPositionErrorAndTheReferencesAsAnOrdinaryDraw
   for (double& error : flown_below) error = error < kReference ? 1.0 : 0.0;
   expect_mean(flown_below, below.mean, below.deviation);
   EXPECT_NEAR(below.mean, 0.45, 0.03) << "an ordinary draw, as docs/results.md says";
+}
+
+// Half of the runs are off by more. The mean is not within the tolerance: a few runs are off by 3 and 4 m.
+TEST_F(ParityTest, HasTheReferencesPositionErrorInTheMedian) {
+  std::vector<double> flown = of("estimate_position_rms_m");
+  std::sort(flown.begin(), flown.end());
+  EXPECT_NEAR(0.5 * (flown[kRuns / 2 - 1] + flown[kRuns / 2]), 1.7, kTolerance);
 }
 
 // Nothing on paper says these: they are the reference's figures, 0.23 to 0.27 deg to the digits given, about

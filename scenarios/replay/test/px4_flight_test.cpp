@@ -358,6 +358,26 @@ TEST(Px4FlightTest, ComparesOnTheEarthWhenPx4MovesItsOrigin) {
   EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("1 times PX4 stepped its position")));
 }
 
+TEST(Px4FlightTest, TellsWhenPx4SteppedItsHeadingAndByHowMuch) {
+  LogByHand log;
+  log.second();
+  log.log().format(
+      "vehicle_local_position:uint64_t timestamp;float x;float y;float z;float delta_heading;uint8_t "
+      "heading_reset_counter;");
+  log.log().subscribe(0, 21, "vehicle_local_position");
+  // Before the IMU it does not count; the sixth is not listed.
+  std::uint8_t counter = 3;
+  for (const double when : {-0.1, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}) {
+    if (when != 0.1 && when != 0.3) ++counter;
+    log.log().record(21, kBoot + static_cast<std::int64_t>(1e6 * when), 0.0F, 0.0F, 0.0F,
+                     when == 0.2 ? -0.388F : 0.0F, counter);
+  }
+  EXPECT_THAT(
+      log.read().flight.remarks,
+      Contains("PX4 stepped its heading by -22.2 deg at 0.2 s, by 0.0 deg at 0.4 s, by 0.0 deg at 0.5 s, "
+               "by 0.0 deg at 0.6 s, by 0.0 deg at 0.7 s"));
+}
+
 TEST(Px4FlightTest, MakesNoMoreOfAGapOfDaysThanOfOneOfSeconds) {
   LogByHand log;
   log.imu(0).imu(4000).imu(900'000'000'000);
