@@ -15,6 +15,7 @@ namespace ironbird::scenarios {
 namespace {
 
 std::string line_of(const MagCandidate& mag, bool taken) {
+  if (mag.samples == 0) return "magnetometer " + std::to_string(mag.instance) + ": no field in any sample";
   std::array<char, 128> text{};
   std::snprintf(text.data(), text.size(),
                 "magnetometer %d%s: %.1f uT, spread %.1f %%, off the earth's field by %.1f %%", mag.instance,

@@ -176,12 +176,19 @@ std::optional<int> choose(const std::vector<MagCandidate>& mags, std::optional<i
     return best != mags.end() && best->samples > 0 ? std::optional(best->instance) : std::nullopt;
   }
   std::string there;
+  bool is_mute = false;
   for (const MagCandidate& mag : mags) {
+    if (mag.samples == 0) {
+      is_mute = is_mute || mag.instance == *named;
+      continue;
+    }
     if (mag.instance == *named) return named;
     there += (there.empty() ? "" : ", ") + std::to_string(mag.instance);
   }
-  throw UserError(log + ": has no magnetometer " + std::to_string(*named) +
-                  (there.empty() ? "; it has none" : "; there are: " + there));
+  const std::string number = std::to_string(*named);
+  const std::string what =
+      is_mute ? "magnetometer " + number + " tells no field in any sample" : "has no magnetometer " + number;
+  throw UserError(log + ": " + what + (there.empty() ? "; it has none" : "; there are: " + there));
 }
 
 /// Why the magnetometer that was taken was taken.
@@ -239,7 +246,8 @@ std::vector<Arrival> read_px4_mag(Px4Log& log, std::optional<int> named, Px4Flig
   std::optional<MagneticField> earth;
   if (flight.first_fix) earth = flight.field_there();
   for (const UlogSeries& series : log.file.series()) {
-    if (series.topic() != "vehicle_magnetometer") continue;
+    // A logger announces instances that never come.
+    if (series.topic() != "vehicle_magnetometer" || series.size() == 0) continue;
     flight.mags.push_back(
         candidate(series.instance(), log.records("vehicle_magnetometer", series.instance()), earth));
   }

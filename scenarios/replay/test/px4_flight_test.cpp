@@ -218,6 +218,26 @@ TEST(Px4FlightTest, TakesTheMagnetometerThatIsNamedOrSaysWhichThereAre) {
   }
 }
 
+TEST(Px4FlightTest, RefusesAMagnetometerThatIsNamedAndTellsNothing) {
+  EXPECT_EQ(with_mags({0.0F, 0.48F}).mag, 1);
+  try {
+    with_mags({0.0F, 0.48F}, {.mag = 0, .gnss_delay = {}});
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_STREQ(error.what(), "by_hand.ulg: magnetometer 0 tells no field in any sample; there are: 1");
+  }
+}
+
+TEST(Px4FlightTest, PassesOverAMagnetometerThatWasAnnouncedAndNeverCame) {
+  LogByHand log;
+  log.second();
+  log.log().format("vehicle_magnetometer:uint64_t timestamp;float[3] magnetometer_ga;");
+  log.log().subscribe(0, 10, "vehicle_magnetometer").subscribe(1, 11, "vehicle_magnetometer");
+  log.log().record(10, kBoot, 0.2F, 0.0F, 0.4F);
+  EXPECT_EQ(log.read().mags.size(), 1U);
+  EXPECT_THROW(log.read({.mag = 1, .gnss_delay = {}}), UserError);
+}
+
 TEST(Px4FlightTest, ReadsTheRecordedEstimateWhereItWasBelieved) {
   LogByHand log;
   log.second();
