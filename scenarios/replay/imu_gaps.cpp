@@ -78,7 +78,7 @@ class GapFiller {
   explicit GapFiller(const std::vector<RecordedImuSample>& samples) : samples_(samples) {
     runs_.reserve(samples.size());
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      const bool goes_on = k > 0 && missing_before(k).value_or(0) == 0;
+      const bool goes_on = k > 0 && missing_before(k) == 0;
       if (!samples[k].is_finite()) {
         runs_.push_back(0);
       } else {
@@ -92,7 +92,7 @@ class GapFiller {
     std::vector<RecordedImuSample> all;
     all.reserve(samples_.size());
     for (std::size_t k = 0; k < samples_.size(); ++k) {
-      const std::size_t missing = k > 0 ? missing_before(k).value_or(0) : 0;
+      const std::size_t missing = k > 0 ? missing_before(k) : 0;
       const bool has_ends = k > 0 && runs_[k] > 0 && runs_[k - 1] > 0;
       if (missing > 0 && missing <= kMostMissing && has_ends) {
         // Only what was recorded foretells: what follows from itself need not stay bounded.
@@ -104,10 +104,10 @@ class GapFiller {
   }
 
  private:
-  /// Samples between sample `k` and the one before it; nothing where it does not tell its length.
-  std::optional<std::size_t> missing_before(std::size_t k) const {
+  /// Samples between sample `k` and the one before it, as far as it tells its length.
+  std::size_t missing_before(std::size_t k) const {
     const auto length = static_cast<double>(samples_[k].length.count());
-    if (length <= 0.0) return std::nullopt;
+    if (length <= 0.0) return 0;
     const auto passed = static_cast<double>((samples_[k].stamp - samples_[k - 1].stamp).count());
     return static_cast<std::size_t>(std::max(std::round(passed / length) - 1.0, 0.0));
   }

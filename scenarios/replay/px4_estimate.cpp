@@ -93,9 +93,10 @@ class PositionReader {
       xy_global_, latitude_, longitude_, altitude_;
 };
 
-std::string tenths(double value) {
+std::string in_tenths(double value) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f", value);
+  const double rounded = std::round(value * 10.0) / 10.0;
+  std::snprintf(text.data(), text.size(), "%.1f", rounded == 0.0 ? 0.0 : rounded);
   return text.data();
 }
 
@@ -113,7 +114,7 @@ std::vector<std::size_t> steps_of(const Px4Log& log, const Px4Records& records, 
   return steps;
 }
 
-/// When PX4 set its heading anew and by how much: what follows is a difference of PX4's to itself.
+/// When PX4 set its heading anew and by how much: there the difference to it may jump, and not by our doing.
 void remark_heading_steps(Px4Log& log, const Px4Records& local) {
   constexpr std::size_t kListed = 5;
   const std::vector<std::size_t> steps = steps_of(log, local, "heading_reset_counter");
@@ -123,8 +124,9 @@ void remark_heading_steps(Px4Log& log, const Px4Records& local) {
   for (std::size_t i = 0; i < std::min(steps.size(), kListed); ++i) {
     const double when = to_seconds(local.published(steps[i]));
     const double by = local.number(steps[i], change) / kRadiansPerDegree;
-    text += std::string(i == 0 ? " " : ", ") + (std::isfinite(by) ? "by " + tenths(by) + " deg " : "") +
-            "at " + tenths(when) + " s";
+    text += i == 0 ? " " : ", ";
+    if (std::abs(by) <= 360.0) text += "by " + in_tenths(by) + " deg ";
+    text += "at " + in_tenths(when) + " s";
   }
   if (steps.size() > kListed) text += " and " + std::to_string(steps.size() - kListed) + " times more";
   log.remark(std::move(text));

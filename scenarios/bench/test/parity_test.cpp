@@ -22,8 +22,9 @@ namespace {
 
 constexpr int kRuns = 100;
 
-constexpr double kReference = 1.74;  // m; the paper's is 1.72 m
-constexpr double kTolerance = 0.2;   // m, around 1.7 m
+// What the position error of a run like the reference's and the paper's, 1.74 and 1.72 m, is to be.
+constexpr double kGoal = 1.7;       // m
+constexpr double kTolerance = 0.2;  // m
 
 // The reference's sensors; models/rosflight_multirotor/sensors.toml.
 constexpr double kFixStep = 0.21 * 0.1;                   // m, of the Gauss-Markov process, every 0.1 s
@@ -134,10 +135,11 @@ Spread on_paper(double density, const Figure& figure) {
   return {mean, std::sqrt(squares / kDraws - square(mean))};
 }
 
-// Not a flight among many: what the scenario of the tree says to who flies it.
-TEST(ParityAsShippedTest, HasTheReferencesErrors) {
+// What the scenario says to who flies it as it ships: one draw, of which a quarter is within the tolerance.
+// What draws the noise anew, in another order, may take it out; then the seed is to be chosen anew, and said.
+TEST(ParityAsShippedTest, IsOffByWhatTheReferenceIs) {
   const Figures figures = fly(std::nullopt, {});
-  EXPECT_NEAR(figures.at("estimate_position_rms_m"), 1.7, kTolerance);
+  EXPECT_NEAR(figures.at("estimate_position_rms_m"), kGoal, kTolerance);
   EXPECT_NEAR(figures.at("estimate_velocity_total_rms_mps"), 0.013, 0.002);
   EXPECT_LE(figures.at("estimate_attitude_rms_deg"), 0.27);
 }
@@ -188,6 +190,7 @@ TEST_F(ParityTest, DriftsWithTheBarometerDownAroundTheErrorOfTheAirDensity) {
 }
 
 TEST_F(ParityTest, HasTheCalculatedPositionErrorAndTheReferencesAsAnOrdinaryDraw) {
+  constexpr double kReference = 1.74;  // m
   const double density = fly_quietly().at("estimate_down_rms_m");
   const Spread position = on_paper(density, [](const PaperFlight& f) { return std::sqrt(f.position); });
   const std::vector<double> flown = of("estimate_position_rms_m");
@@ -197,14 +200,18 @@ TEST_F(ParityTest, HasTheCalculatedPositionErrorAndTheReferencesAsAnOrdinaryDraw
   std::vector<double> flown_below = flown;
   for (double& error : flown_below) error = error < kReference ? 1.0 : 0.0;
   expect_mean(flown_below, below.mean, below.deviation);
+  const Spread within = on_paper(density, [](const PaperFlight& f) {
+    return std::abs(std::sqrt(f.position) - kGoal) < kTolerance ? 1.0 : 0.0;
+  });
+  EXPECT_NEAR(within.mean, 0.25, 0.03) << "as docs/results.md says";
   EXPECT_NEAR(below.mean, 0.45, 0.03) << "an ordinary draw, as docs/results.md says";
 }
 
-// Half of the runs are off by more. The mean is not within the tolerance: a few runs are off by 3 and 4 m.
+// The mean is not within the tolerance: a few runs are off by 3 and 4 m.
 TEST_F(ParityTest, HasTheReferencesPositionErrorInTheMedian) {
   std::vector<double> flown = of("estimate_position_rms_m");
   std::sort(flown.begin(), flown.end());
-  EXPECT_NEAR(0.5 * (flown[kRuns / 2 - 1] + flown[kRuns / 2]), 1.7, kTolerance);
+  EXPECT_NEAR(0.5 * (flown[kRuns / 2 - 1] + flown[kRuns / 2]), kGoal, kTolerance);
 }
 
 // Nothing on paper says these: they are the reference's figures, 0.23 to 0.27 deg to the digits given, about

@@ -1,31 +1,23 @@
 // The estimators on recorded flights: one set of parameters, and how far they are from PX4's estimate.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 #include <tuple>
-#include <variant>
 #include <vector>
 
-#include "scenarios/bench/run_time.hpp"
-#include "scenarios/replay/px4_flight.hpp"
 #include "scenarios/replay/test/flights.hpp"
 
 namespace ironbird::scenarios {
 namespace {
 
-using autopilot::Quaternion;
-using autopilot::Vector3;
 using nlohmann::json;
 using test::KnownFlight;
 
@@ -61,21 +53,11 @@ struct Bounds {
 constexpr Bounds kEuler{"ekf", 0.25, 0.30, 1.0, 0.8, 5.0};
 constexpr Bounds kErrorState{"error_state", 0.15, 0.20, 0.5, 0.5, 4.0};
 
-/// Bounds of a flight on which one is not reached: what is, with little to spare. On the V6C, PX4 stepped its
-/// heading away from both compasses and came back within 6 s; TheV6cCompassForbidsItsHeadingBound says
-/// what that allows.
-Bounds reached(const KnownFlight& flight, Bounds bounds) {
-  if (bounds.kind != std::string("error_state")) return bounds;
-  if (flight.file == std::string("v6c_quad_mission_two_mags")) bounds.heading = 4.7;
-  return bounds;
-}
-
 class FlightsTest : public testing::TestWithParam<std::tuple<KnownFlight, Bounds>> {};
 
 TEST_P(FlightsTest, StaysNearPx4sEstimate) {
   IRONBIRD_NEEDS_FLIGHTS();
-  const auto& [flight, wanted] = GetParam();
-  const Bounds bounds = reached(flight, wanted);
+  const auto& [flight, bounds] = GetParam();
   const json verdict =
       replay(flight, std::string("--window ") + flight.window + " --declination=" + flight.declination +
                          " --mag " + flight.mag + " --set autopilot.estimator.kind=" + bounds.kind);
@@ -123,63 +105,6 @@ TEST(FlightsTest, DoesNotDivergeWithAnyMagnetometer) {
             << flight.file << ' ' << kind << ' ' << mag;
       }
     }
-  }
-}
-
-/// By how much the compass at `field` (body axes) and the recorded attitude contradict each other, rad.
-double heading_contradicted(const Vector3& field, const Quaternion& q_NB, double declination) {
-  const Vector3 field_N = q_NB * field;
-  return std::remainder(declination - std::atan2(field_N.y(), field_N.x()), 2.0 * std::numbers::pi);
-}
-
-/// The attitude between two recorded ones.
-Quaternion attitude_at(const std::vector<RecordedAttitude>& attitudes, hil_bridge::Time when) {
-  const auto after = std::lower_bound(attitudes.begin() + 1, attitudes.end() - 1, when,
-                                      [](const auto& a, hil_bridge::Time time) { return a.stamp < time; });
-  const auto before = after - 1;
-  const double share = to_seconds(when - before->stamp) / to_seconds(after->stamp - before->stamp);
-  return before->q_NB.slerp(share, after->q_NB);
-}
-
-// PX4 stepped its heading by -22 degrees at 6.0 s and took six seconds to come back. Who follows the compass
-// that the folder names until then, and agrees with PX4 to the last digit afterwards, is still off by more
-// than the bound of the error-state filter over the whole window.
-TEST(FlightsTest, TheV6cCompassForbidsItsHeadingBound) {
-  IRONBIRD_NEEDS_FLIGHTS();
-  constexpr double kBegin = 5.8, kBack = 12.0, kEnd = 58.6;  // s
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  const std::string file = (test::flights_folder() / "px4/v6c_quad_mission_two_mags.ulg").string();
-  Px4Choice choice;
-  choice.mag = 1;
-  const RecordedFlight flight = read_px4_flight(UlogFile::read(file), file, choice).flight;
-  EXPECT_THAT(flight.remarks,
-              testing::Contains(testing::StartsWith("PX4 stepped its heading by -22.2 deg at 6.0 s")));
-  double squares = 0.0;
-  int count = 0;
-  for (const hil_bridge::Arrival& arrival : flight.messages) {
-    const auto* const mag = std::get_if<hil_bridge::rosflight::SmallMag>(&arrival.message);
-    const double when = to_seconds(arrival.when);
-    if (mag == nullptr || when < kBegin || when > kBack) continue;
-    const Vector3 field(mag->xmag, mag->ymag, mag->zmag);
-    const Quaternion q_NB = attitude_at(flight.estimates.at(0).attitudes, arrival.when);
-    const double contradicted = heading_contradicted(field, q_NB, 4.0 * kDegree);
-    squares += contradicted * contradicted;
-    ++count;
-  }
-  ASSERT_GE(count, 10);
-  const double least = std::sqrt(squares / count * (kBack - kBegin) / (kEnd - kBegin)) / kDegree;
-  EXPECT_NEAR(least, 4.2, 0.1) << "deg, as docs/results.md says";
-  EXPECT_GT(least, kErrorState.heading);
-}
-
-TEST(FlightsTest, AgreesWithPx4sHeadingOnTheV6cOnceThatHasComeBack) {
-  IRONBIRD_NEEDS_FLIGHTS();
-  for (const Bounds& bounds : {kEuler, kErrorState}) {
-    const json verdict =
-        replay(test::kKnownFlights[2], std::string("--window 12:58.6 --declination=4.0 --mag 1"
-                                                   " --set autopilot.estimator.kind=") +
-                                           bounds.kind);
-    EXPECT_LE(figure(verdict, "heading_difference_rms_deg"), 0.5 * bounds.heading) << bounds.kind;
   }
 }
 

@@ -8,49 +8,21 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "scenarios/config/user_error.hpp"
-#include "scenarios/replay/test/ulog_by_hand.hpp"
+#include "scenarios/replay/test/log_by_hand.hpp"
 
 namespace ironbird::scenarios {
 namespace {
 
 using hil_bridge::Time;
 using std::chrono::milliseconds;
+using test::kBoot;
+using test::LogByHand;
 using test::UlogByHand;
 using testing::Contains;
 using testing::HasSubstr;
 namespace rosflight = hil_bridge::rosflight;
-
-constexpr std::uint64_t kBoot = 5'000'000;  // us, of the first sample of the IMU
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-
-/// A log with an IMU at 250 Hz for a second, to which a test adds topics.
-class LogByHand {
- public:
-  LogByHand() {
-    log_.format(
-        "sensor_combined:uint64_t timestamp;float[3] gyro_rad;uint32_t gyro_integral_dt;int32_t "
-        "accelerometer_timestamp_relative;float[3] accelerometer_m_s2;");
-    log_.subscribe(0, 1, "sensor_combined");
-  }
-  LogByHand& imu(std::uint64_t at, std::int32_t relative = 0, float rate = 0.1F) {
-    log_.record(1, kBoot + at, rate, 0.2F, 0.3F, std::uint32_t{4000}, relative, 0.5F, -0.25F, -9.75F);
-    return *this;
-  }
-  LogByHand& second() {
-    for (std::uint64_t k = 0; k <= 250; ++k) imu(4000 * k);
-    return *this;
-  }
-  UlogByHand& log() { return log_; }
-  Px4Flight read(const Px4Choice& choice = {}) const {
-    return read_px4_flight(log_.read(), "by_hand.ulg", choice);
-  }
-
- private:
-  UlogByHand log_;
-};
 
 template <class Content>
 std::vector<std::pair<Time, Content>> of(const Px4Flight& px4) {
@@ -238,38 +210,6 @@ TEST(Px4FlightTest, PassesOverAMagnetometerThatWasAnnouncedAndNeverCame) {
   EXPECT_THROW(log.read({.mag = 1, .gnss_delay = {}}), UserError);
 }
 
-TEST(Px4FlightTest, ReadsTheRecordedEstimateWhereItWasBelieved) {
-  LogByHand log;
-  log.second();
-  log.log()
-      .format("vehicle_attitude:uint64_t timestamp;uint64_t timestamp_sample;float[4] q;")
-      .subscribe(0, 20, "vehicle_attitude");
-  log.log().record(20, kBoot + 101'000, kBoot + 100'000, 1.0F, 0.0F, 0.0F, 0.0F);
-  log.log().record(20, kBoot + 201'000, kBoot + 200'000, std::nanf(""), 0.0F, 0.0F, 0.0F);
-  log.log().format(
-      "vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float y;float z;float "
-      "vx;float vy;float vz;float ref_alt;bool xy_valid;bool z_valid;bool v_xy_valid;bool v_z_valid;");
-  log.log().subscribe(0, 21, "vehicle_local_position");
-  const auto position = [&log](std::uint64_t at, std::uint8_t valid) {
-    log.log().record(21, kBoot + at, 47.3, 8.5, 1.0F, 2.0F, -3.0F, 0.1F, 0.2F, 0.3F, 430.0F, valid,
-                     std::uint8_t{1}, valid, std::uint8_t{1});
-  };
-  position(100'000, 0);
-  position(300'000, 1);
-  const Px4Flight px4 = log.read();
-  ASSERT_EQ(px4.flight.estimates.size(), 1U);
-  const RecordedEstimate& recorded = px4.flight.estimates[0];
-  EXPECT_EQ(recorded.name, "PX4");
-  ASSERT_EQ(recorded.attitudes.size(), 1U);
-  EXPECT_EQ(recorded.attitudes[0].stamp, milliseconds(100)) << "of the sample, not of its publication";
-  ASSERT_EQ(recorded.positions.size(), 2U);
-  EXPECT_FALSE(recorded.positions[0].position_known);
-  EXPECT_FALSE(recorded.positions[0].velocity_known);
-  EXPECT_TRUE(recorded.positions[0].height_known);
-  EXPECT_TRUE(recorded.positions[1].position_known);
-  EXPECT_NEAR(recorded.origin.latitude, 47.3 * kRadiansPerDegree, 1e-12);
-}
-
 TEST(Px4FlightTest, KnowsWhenItWasAirborneAndArmed) {
   LogByHand log;
   log.second();
@@ -358,44 +298,6 @@ TEST(Px4FlightTest, TakesNoDelayThatCannotBeAndNoFixThatIsNone) {
   EXPECT_EQ(px4.first_fix->lat, 33.5);
   EXPECT_GT(px4.first_fix->h_acc, 0.0F) << "a receiver that does not tell its accuracy has a usual one";
   EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("1 of its GNSS fixes are no numbers")));
-}
-
-TEST(Px4FlightTest, ComparesOnTheEarthWhenPx4MovesItsOrigin) {
-  LogByHand log;
-  log.second();
-  log.log().format(
-      "vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float y;float z;float "
-      "ref_alt;uint8_t xy_reset_counter;");
-  log.log().subscribe(0, 21, "vehicle_local_position");
-  constexpr double kNorth = 100.0 / 111'320.0;  // deg
-  log.log().record(21, kBoot + 100'000, 47.3, 8.5, 10.0F, 0.0F, -3.0F, 430.0F, std::uint8_t{0});
-  log.log().record(21, kBoot + 200'000, 47.3 + kNorth, 8.5, -90.0F, 0.0F, -3.0F, 430.0F, std::uint8_t{1});
-  const Px4Flight px4 = log.read();
-  const auto& positions = px4.flight.estimates.at(0).positions;
-  ASSERT_EQ(positions.size(), 2U);
-  EXPECT_NEAR(positions[1].p_NB_N.x(), positions[0].p_NB_N.x(), 0.1);
-  EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("1 times PX4 moved the origin")));
-  EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("1 times PX4 stepped its position")));
-}
-
-TEST(Px4FlightTest, TellsWhenPx4SteppedItsHeadingAndByHowMuch) {
-  LogByHand log;
-  log.second();
-  log.log().format(
-      "vehicle_local_position:uint64_t timestamp;float x;float y;float z;float delta_heading;uint8_t "
-      "heading_reset_counter;");
-  log.log().subscribe(0, 21, "vehicle_local_position");
-  // Before the IMU it does not count; the sixth is not listed.
-  std::uint8_t counter = 3;
-  for (const double when : {-0.1, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7}) {
-    if (when != 0.1 && when != 0.3) ++counter;
-    log.log().record(21, kBoot + static_cast<std::int64_t>(1e6 * when), 0.0F, 0.0F, 0.0F,
-                     when == 0.2 ? -0.388F : 0.0F, counter);
-  }
-  EXPECT_THAT(
-      log.read().flight.remarks,
-      Contains("PX4 stepped its heading by -22.2 deg at 0.2 s, by 0.0 deg at 0.4 s, by 0.0 deg at 0.5 s, "
-               "by 0.0 deg at 0.6 s, by 0.0 deg at 0.7 s"));
 }
 
 TEST(Px4FlightTest, MakesNoMoreOfAGapOfDaysThanOfOneOfSeconds) {
