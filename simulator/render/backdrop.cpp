@@ -175,23 +175,38 @@ void Backdrop::paint_marks(const Row& row, Pixel* pixels, int width) const {
   // Samples spread along the line of sight, which on the ground is square to the row.
   const double north_side = lateral > 0.0 ? -row.east_step / lateral : 0.0;
   const double east_side = lateral > 0.0 ? row.north_step / lateral : 0.0;
-  for (int x = first_last.first; x < first_last.second; ++x) {
+  const auto paint_at = [&](int x) {
     GroundMarks::Paint paint = GroundMarks::Paint::Zero();
     for (int k = 0; k < samples; ++k) {
       const double along = reach * ((k + 0.5) / samples - 0.5);
       paint += marks(static_cast<float>(row.north + row.north_step * x + along * north_side),
                      static_cast<float>(row.east + row.east_step * x + along * east_side));
     }
-    if (paint[3] == 0.0F) {
-      continue;
-    }
-    paint *= share;
+    return GroundMarks::Paint(share * paint);
+  };
+  const auto put = [&](int x, const GroundMarks::Paint& paint) {
     const float opacity = paint[3];
-    paint += haze * (opacity * horizon - paint) + 0.5F;
+    if (opacity == 0.0F) return;
     Pixel& p = pixels[x];
-    p.r = static_cast<std::uint8_t>(static_cast<float>(p.r) * (1.0F - opacity) + paint[0]);
-    p.g = static_cast<std::uint8_t>(static_cast<float>(p.g) * (1.0F - opacity) + paint[1]);
-    p.b = static_cast<std::uint8_t>(static_cast<float>(p.b) * (1.0F - opacity) + paint[2]);
+    const GroundMarks::Paint below = Eigen::Array4i(p.r, p.g, p.b, 0).cast<float>();
+    const GroundMarks::Paint hazy = paint + haze * (opacity * horizon - paint) + 0.5F;
+    const Eigen::Array4i above = (below * (1.0F - opacity) + hazy).cast<int>();
+    p.r = static_cast<std::uint8_t>(above[0]);
+    p.g = static_cast<std::uint8_t>(above[1]);
+    p.b = static_cast<std::uint8_t>(above[2]);
+  };
+  const auto [first, end] = first_last;
+  if (!quick_marks_) {
+    for (int x = first; x < end; ++x) put(x, paint_at(x));
+    return;
+  }
+  // Every second pixel, and between two of them their mean.
+  GroundMarks::Paint paint = paint_at(first);
+  for (int x = first; x < end; x += 2) {
+    const GroundMarks::Paint next = paint_at(x + 2);
+    put(x, paint);
+    if (x + 1 < end) put(x + 1, 0.5F * (paint + next));
+    paint = next;
   }
 }
 

@@ -18,8 +18,8 @@ namespace ironbird::simulator {
 class Backdrop {
  public:
   /// @param ground_color  red, green, blue, 0..1
-  /// @param quick_marks  one look at the marks for a pixel that sees them aslant, instead of up to three:
-  /// they blur along the line of sight
+  /// @param quick_marks  one look at the marks for every second pixel, instead of up to three for each that
+  /// sees them aslant: they blur along the line of sight
   Backdrop(const Vector3& ground_color, GroundMarks marks, bool quick_marks);
 
   /// Fills the picture.

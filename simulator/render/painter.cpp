@@ -12,6 +12,11 @@ namespace {
 constexpr double kHiddenOpacity = 0.22;  // of what stands behind a solid thing
 constexpr double kNear = 2.0 * kNearPlane;
 
+/// Without the care that std::hypot takes of overflow, for each pixel.
+double pixels_apart(double du, double dv) {
+  return std::sqrt(du * du + dv * dv);
+}
+
 void blend(Pixel& under, Pixel over, double opacity) {
   const auto mix = [&](std::uint8_t a, std::uint8_t b) {
     return static_cast<std::uint8_t>(a + opacity * (b - a) + 0.5);
@@ -72,7 +77,7 @@ void Painter::segment(double au, double av, double ad, double bu, double bv, dou
     for (int x = columns.first; x <= columns.second; ++x) {
       const double along = ((x + 0.5 - au) * du + (y + 0.5 - av) * dv) / square;
       const double k = std::clamp(along, 0.0, 1.0);
-      const double distance = std::hypot(x + 0.5 - au - k * du, y + 0.5 - av - k * dv);
+      const double distance = pixels_apart(x + 0.5 - au - k * du, y + 0.5 - av - k * dv);
       const double cover = std::clamp(reach - distance, 0.0, 1.0) * (along < 0.0 || along >= 1.0 ? 0.5 : 1.0);
       if (cover > 0.0) {
         const double depth = 1.0 / ((1.0 - k) / ad + k / bd);
@@ -132,7 +137,7 @@ void Painter::plate(const Vector3& center_N, double radius_px, Pixel fill, Pixel
   const auto columns = pixel_span(center->u - radius_px - 1.0, center->u + radius_px + 1.0, image_.width());
   for (int y = rows.first; y <= rows.second; ++y) {
     for (int x = columns.first; x <= columns.second; ++x) {
-      const double r = std::hypot(x + 0.5 - center->u, y + 0.5 - center->v);
+      const double r = pixels_apart(x + 0.5 - center->u, y + 0.5 - center->v);
       const double cover = std::clamp(radius_px + 0.5 - r, 0.0, 1.0);
       const double inner = std::clamp(radius_px - 1.7 - r, 0.0, 1.0);
       const double seen = center->depth < depth_.at(x, y) + 0.02 ? opacity : opacity * kHiddenOpacity;
@@ -156,7 +161,7 @@ void Painter::halo(const Vector3& center_N, double radius_px, double width, Pixe
   const auto columns = pixel_span(center->u - reach, center->u + reach, image_.width());
   for (int y = rows.first; y <= rows.second; ++y) {
     for (int x = columns.first; x <= columns.second; ++x) {
-      const double r = std::hypot(x + 0.5 - center->u, y + 0.5 - center->v);
+      const double r = pixels_apart(x + 0.5 - center->u, y + 0.5 - center->v);
       const double cover = std::clamp(0.5 * width + 0.5 - std::abs(r - radius_px), 0.0, 1.0);
       if (cover > 0.0) {
         blend(image_.at(x, y), color, opacity * cover);
@@ -193,7 +198,8 @@ void Painter::rotor(const Vector3& center_N, const Vector3& axis_N, const Vector
       }
       const double along = r > 1e-9 ? blade_N.dot(r_N) / r : 0.0;
       const double across = r > 1e-9 ? side_N.dot(r_N) / r : 0.0;
-      const double lobe = std::pow(along * along, 5.0) * (0.75 + 0.25 * along * across);
+      const double square = along * along;
+      const double lobe = square * square * square * square * square * (0.75 + 0.25 * along * across);
       const bool tip = r > 0.88 * radius;
       const Pixel color = tip ? Pixel{232, 232, 224, 255} : Pixel{34, 36, 40, 255};
       // Seen flat a disc is denser: more of it lies in the line of sight.

@@ -113,8 +113,8 @@ TEST(Px4EstimateTest, TellsNoSizeOfAStepThatCannotBe) {
 }
 
 TEST(Px4EstimateTest, ListsNoMoreStepsThanAnybodyReads) {
-  const auto remarks =
-      remarks_on_steps({{0.1, 0.0F}, {0.2, 0.0F}, {0.3, 0.0F}, {0.4, 0.0F}, {0.5, 0.0F}, {0.6, 0.0F}, {0.7, 0.0F}});
+  const auto remarks = remarks_on_steps(
+      {{0.1, 0.0F}, {0.2, 0.0F}, {0.3, 0.0F}, {0.4, 0.0F}, {0.5, 0.0F}, {0.6, 0.0F}, {0.7, 0.0F}});
   EXPECT_THAT(remarks, Contains(EndsWith("by 0.0 deg at 0.5 s and 2 times more")));
 }
 
