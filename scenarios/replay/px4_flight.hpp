@@ -63,7 +63,7 @@ struct Px4Flight {
 
 /// Takes sensors and estimates of PX4 1.8 to 1.15 out of a log: integer and double latitudes, both layouts of
 /// the barometer, several magnetometers. @throws UserError naming the file when it has no IMU, or no such
-/// magnetometer, or one that tells nothing
+/// magnetometer, or when the one that is named tells no field
 Px4Flight read_px4_flight(const UlogFile& file, const std::string& name, const Px4Choice& choice = {});
 
 }  // namespace ironbird::scenarios

@@ -188,15 +188,15 @@ std::optional<int> choose(const std::vector<MagCandidate>& mags, std::optional<i
   const std::string number = std::to_string(*named);
   const std::string what =
       is_mute ? "magnetometer " + number + " tells no field in any sample" : "has no magnetometer " + number;
-  throw UserError(log + ": " + what + (there.empty() ? "; it has none" : "; there are: " + there));
+  throw UserError(log + ": " + what + (there.empty() ? "; the log has no other" : "; there are: " + there));
 }
 
 /// Why the magnetometer that was taken was taken.
 std::string mag_source(const Px4Flight& flight, bool named) {
   if (named) return "as named";
   if (!flight.mag) return "the log has none";
-  const bool several = flight.mags.size() > 1;
-  if (!several) return "the only one of the log";
+  const auto tells = [](const MagCandidate& mag) { return mag.samples > 0; };
+  if (std::count_if(flight.mags.begin(), flight.mags.end(), tells) == 1) return "the only one of the log";
   return flight.first_fix ? "it fits the earth's field best, strength and spread together"
                           : "its strength spreads least; there is no place to ask for the earth's";
 }

@@ -167,7 +167,8 @@ void Backdrop::paint_marks(const Row& row, Pixel* pixels, int width) const {
   const double reach = std::hypot(row.north_reach, row.east_reach);
   const int aslant = std::clamp(static_cast<int>(std::lround(reach / lateral)), 1, 3);
   const int samples = quick_marks_ ? 1 : aslant;
-  const GroundMarks::Sampler marks = marks_.sampler(static_cast<float>(std::max(lateral, reach / samples)));
+  const double across = quick_marks_ ? 2.0 * lateral : lateral;
+  const GroundMarks::Sampler marks = marks_.sampler(static_cast<float>(std::max(across, reach / samples)));
   const float share = 1.0F / static_cast<float>(samples);
   const float haze = static_cast<float>(row.haze);
   const GroundMarks::Paint horizon(static_cast<float>(kHorizon.x()), static_cast<float>(kHorizon.y()),
@@ -189,7 +190,7 @@ void Backdrop::paint_marks(const Row& row, Pixel* pixels, int width) const {
     if (opacity == 0.0F) return;
     Pixel& p = pixels[x];
     const GroundMarks::Paint below = Eigen::Array4i(p.r, p.g, p.b, 0).cast<float>();
-    const GroundMarks::Paint hazy = paint + haze * (opacity * horizon - paint) + 0.5F;
+    const GroundMarks::Paint hazy = paint + (haze * (opacity * horizon - paint) + 0.5F);
     const Eigen::Array4i above = (below * (1.0F - opacity) + hazy).cast<int>();
     p.r = static_cast<std::uint8_t>(above[0]);
     p.g = static_cast<std::uint8_t>(above[1]);
@@ -200,11 +201,12 @@ void Backdrop::paint_marks(const Row& row, Pixel* pixels, int width) const {
     for (int x = first; x < end; ++x) put(x, paint_at(x));
     return;
   }
-  // Every second pixel, and between two of them their mean.
-  GroundMarks::Paint paint = paint_at(first);
-  for (int x = first; x < end; x += 2) {
+  // Every second pixel, the same ones in each row, and between two of them their mean.
+  const int even = first - first % 2;
+  GroundMarks::Paint paint = paint_at(even);
+  for (int x = even; x < end; x += 2) {
     const GroundMarks::Paint next = paint_at(x + 2);
-    put(x, paint);
+    if (x >= first) put(x, paint);
     if (x + 1 < end) put(x + 1, 0.5F * (paint + next));
     paint = next;
   }

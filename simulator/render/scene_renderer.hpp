@@ -15,7 +15,7 @@ namespace ironbird::simulator {
 
 /// How much work goes into a picture.
 enum class Quality : std::uint8_t {
-  kPreview,  ///< no antialiasing of solid things, small shadows
+  kPreview,  ///< no antialiasing of solid things, small shadows, coarse marks on the ground
   kFilm,     ///< four samples per pixel
   kStill     ///< nine samples per pixel, fine shadows
 };

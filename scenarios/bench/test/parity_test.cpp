@@ -135,13 +135,16 @@ Spread on_paper(double density, const Figure& figure) {
   return {mean, std::sqrt(squares / kDraws - square(mean))};
 }
 
-// What the scenario says to who flies it as it ships: one draw, of which a quarter is within the tolerance.
-// What draws the noise anew, in another order, may take it out; then the seed is to be chosen anew, and said.
+// What the scenario says to who flies it as it ships: one draw; a quarter of all draws are within the
+// tolerance. What draws the noise anew, in another order, may take it out; then the seed is to be chosen
+// anew, and said.
 TEST(ParityAsShippedTest, IsOffByWhatTheReferenceIs) {
   const Figures figures = fly(std::nullopt, {});
   EXPECT_NEAR(figures.at("estimate_position_rms_m"), kGoal, kTolerance);
   EXPECT_NEAR(figures.at("estimate_velocity_total_rms_mps"), 0.013, 0.002);
-  EXPECT_LE(figures.at("estimate_attitude_rms_deg"), 0.27);
+  // 0.208 deg, less than the reference's 0.23 to 0.27; of all draws nine of ten lie here.
+  EXPECT_GT(figures.at("estimate_attitude_rms_deg"), 0.195);
+  EXPECT_LT(figures.at("estimate_attitude_rms_deg"), 0.267);
 }
 
 class ParityTest : public ::testing::Test {

@@ -33,8 +33,8 @@ constexpr const char* kFormats[] = {
     "vehicle_magnetometer:uint64_t timestamp;float[3] magnetometer_ga;",
     "vehicle_air_data:uint64_t timestamp;float baro_pressure_pa;float baro_temp_celcius;",
     "vehicle_attitude:uint64_t timestamp;float[4] q;uint8_t[4] _padding0;",
-    "vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float y;float z;bool "
-    "xy_valid;",
+    "vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float y;float z;float "
+    "delta_heading;uint8_t heading_reset_counter;uint8_t xy_reset_counter;bool xy_valid;",
     "vehicle_status:uint64_t timestamp;uint8_t arming_state;uint8_t hil_state;uint8_t vehicle_type;",
     "vehicle_land_detected:uint64_t timestamp;bool landed;",
     "outer:uint64_t timestamp;inner[3] part;",

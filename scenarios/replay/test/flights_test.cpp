@@ -108,6 +108,20 @@ TEST(FlightsTest, DoesNotDivergeWithAnyMagnetometer) {
   }
 }
 
+// PX4 stepped its heading by -22 degrees at 6.0 s, away from both compasses, and came back.
+TEST(FlightsTest, AgreesWithPx4sHeadingOnTheV6cOnceThatHasComeBack) {
+  IRONBIRD_NEEDS_FLIGHTS();
+  for (const Bounds& bounds : {kEuler, kErrorState}) {
+    const KnownFlight flight{"v6c_quad_mission_two_mags", "12:58.6", "4.0", "1"};
+    const json verdict =
+        replay(flight, std::string("--window ") + flight.window + " --declination=" + flight.declination +
+                           " --mag " + flight.mag + " --set autopilot.estimator.kind=" + bounds.kind);
+    EXPECT_LE(figure(verdict, "heading_difference_rms_deg"), 0.5 * bounds.heading) << bounds.kind;
+    EXPECT_NE(verdict["warnings"].dump().find("PX4 stepped its heading by -22.2 deg at 6.0 s"),
+              std::string::npos);
+  }
+}
+
 const char* const kKinds[] = {"ekf", "error_state"};
 
 std::string choice(const KnownFlight& flight, const char* kind) {

@@ -5,13 +5,13 @@
 #include "scenarios/replay/px4_flight.hpp"
 #include "scenarios/replay/test/ulog_by_hand.hpp"
 
-// A PX4 log of a second at rest, made by hand.
+// A PX4 log made by hand, of a second or less.
 
 namespace ironbird::scenarios::test {
 
 inline constexpr std::uint64_t kBoot = 5'000'000;  ///< us, of the first sample of the IMU
 
-/// A log with an IMU at 250 Hz for a second, to which a test adds topics.
+/// An IMU at 250 Hz, to which a test adds topics.
 class LogByHand {
  public:
   LogByHand() {

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "scenarios/config/user_error.hpp"
 #include "scenarios/replay/test/log_by_hand.hpp"
@@ -192,6 +191,7 @@ TEST(Px4FlightTest, TakesTheMagnetometerThatIsNamedOrSaysWhichThereAre) {
 
 TEST(Px4FlightTest, RefusesAMagnetometerThatIsNamedAndTellsNothing) {
   EXPECT_EQ(with_mags({0.0F, 0.48F}).mag, 1);
+  EXPECT_EQ(with_mags({0.0F, 0.48F}).mag_source, "the only one of the log");
   try {
     with_mags({0.0F, 0.48F}, {.mag = 0, .gnss_delay = {}});
     FAIL();

@@ -104,6 +104,26 @@ TEST_P(SceneRendererTest, LowersTheRightSideInAPositiveRoll) {
 
 INSTANTIATE_TEST_SUITE_P(Vehicles, SceneRendererTest, ::testing::Values("x650", "rosflight_multirotor"));
 
+// The landing pad fills the picture, with its edge in it; the vehicle is elsewhere.
+TEST_F(SceneRendererTest, PaintsThePadOfAPreviewLikeThatOfAFilm) {
+  for (const int width : {640, 641}) {
+    RendererParams of_film = params("x650"), of_preview = params("x650", Quality::kPreview);
+    of_film.width = of_preview.width = width;
+    SceneRenderer film(of_film), preview(of_preview);
+    for (const Vector3& eye : {Vector3(-6.0, 0.3, -3.0), Vector3(-2.0, 2.0, -4.0)}) {
+      const Camera over_the_pad{eye, Vector3::Zero(), 0.8};
+      const Image one = film.render(sample(0.0, 0.0), over_the_pad, {});
+      const Image other = preview.render(sample(0.0, 0.0), over_the_pad, {});
+      int apart = 0;
+      for (int y = 0; y < one.height(); ++y) {
+        for (int x = 0; x < one.width(); ++x)
+          apart += std::abs(one.at(x, y).g - other.at(x, y).g) > 20 ? 1 : 0;
+      }
+      EXPECT_LT(apart, width * one.height() / 50) << "edges only, width " << width;
+    }
+  }
+}
+
 TEST_F(SceneRendererTest, DrawsAPointWhereTheProjectionSaysItIs) {
   SceneRenderer renderer(params("x650"));
   RenderSample far_away = sample(0.0, 0.0);
