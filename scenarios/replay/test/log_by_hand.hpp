@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "scenarios/replay/px4_flight.hpp"
 #include "scenarios/replay/test/ulog_by_hand.hpp"
@@ -29,6 +30,11 @@ class LogByHand {
     return *this;
   }
   UlogByHand& log() { return log_; }
+  /// Records of topic `id`, described as in a log: name and fields.
+  LogByHand& topic(std::uint16_t id, const std::string& described) {
+    log_.format(described).subscribe(0, id, described.substr(0, described.find(':')));
+    return *this;
+  }
   Px4Flight read(const Px4Choice& choice = {}) const {
     return read_px4_flight(log_.read(), "by_hand.ulg", choice);
   }

@@ -60,11 +60,9 @@ TEST(Px4EstimateTest, ReadsTheRecordedEstimateWhereItWasBelieved) {
 
 TEST(Px4EstimateTest, ComparesOnTheEarthWhenPx4MovesItsOrigin) {
   LogByHand log;
-  log.second();
-  log.log().format(
-      "vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float y;float z;float "
-      "ref_alt;uint8_t xy_reset_counter;");
-  log.log().subscribe(0, 21, "vehicle_local_position");
+  log.second().topic(21,
+                     "vehicle_local_position:uint64_t timestamp;double ref_lat;double ref_lon;float x;float "
+                     "y;float z;float ref_alt;uint8_t xy_reset_counter;");
   constexpr double kNorth = 100.0 / 111'320.0;  // deg
   log.log().record(21, kBoot + 100'000, 47.3, 8.5, 10.0F, 0.0F, -3.0F, 430.0F, std::uint8_t{0});
   log.log().record(21, kBoot + 200'000, 47.3 + kNorth, 8.5, -90.0F, 0.0F, -3.0F, 430.0F, std::uint8_t{1});
@@ -79,11 +77,9 @@ TEST(Px4EstimateTest, ComparesOnTheEarthWhenPx4MovesItsOrigin) {
 /// Of steps at these times after the first sample of the IMU, s, by so much, rad.
 std::vector<std::string> remarks_on_steps(const std::vector<std::pair<double, float>>& steps) {
   LogByHand log;
-  log.second();
-  log.log().format(
-      "vehicle_local_position:uint64_t timestamp;float x;float y;float z;float delta_heading;uint8_t "
-      "heading_reset_counter;");
-  log.log().subscribe(0, 21, "vehicle_local_position");
+  log.second().topic(21,
+                     "vehicle_local_position:uint64_t timestamp;float x;float y;float z;float "
+                     "delta_heading;uint8_t heading_reset_counter;");
   std::uint8_t counter = 3;
   const auto record = [&](double when, float change) {
     const auto us = static_cast<std::int64_t>(kBoot) + std::llround(1e6 * when);

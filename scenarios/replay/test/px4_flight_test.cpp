@@ -285,11 +285,9 @@ TEST(Px4FlightTest, TakesNoDelayThatCannotBeAndNoFixThatIsNone) {
     EXPECT_THAT(px4.flight.remarks, Contains(HasSubstr("EKF2_GPS_DELAY")));
   }
   LogByHand log;
-  log.second();
-  log.log().format(
-      "sensor_gps:uint64_t timestamp;double latitude_deg;double longitude_deg;double altitude_msl_m;uint8_t "
-      "fix_type;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;");
-  log.log().subscribe(0, 2, "sensor_gps");
+  log.second().topic(2,
+                     "sensor_gps:uint64_t timestamp;double latitude_deg;double longitude_deg;double "
+                     "altitude_msl_m;uint8_t fix_type;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;");
   for (const double latitude : {std::nan(""), 33.5}) {
     log.log().record(2, kBoot + 500'000, latitude, -117.5, 46.9, std::uint8_t{3}, 0.0F, 0.0F, 0.0F);
   }
