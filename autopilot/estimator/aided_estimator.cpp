@@ -249,6 +249,14 @@ void AidedEstimator::velocity_believed(Time now, double was_off) {
   trust_.velocity_believed(now, std::max(2.0 * was_off, aiding().lost_speed), aiding().gnss.silence);
 }
 
+bool AidedEstimator::velocity_disputed(Time now) const {
+  return gates_.velocity.disagreed_within(aiding().gnss.silence, now);
+}
+
+double AidedEstimator::height_lost(double was_off_down) const {
+  return was_off_down * aiding().gnss.persistence;
+}
+
 bool AidedEstimator::blame_receiver(const Vector3& by_N, Time now) {
   const double distance = by_N.head<2>().norm();
   const bool far = distance > PositionWatch::kLeastJump;

@@ -88,6 +88,12 @@ class AidedEstimator : public Estimator {
   /// @param was_off  by how much the velocity was reset, m/s
   void velocity_believed(Time now, double was_off = 0.0);
   void position_believed(Time now) { trust_.position_believed(now); }
+  /// Whether the last fixes disagreed with the velocity.
+  bool velocity_disputed(Time now) const;
+  /// What the height may have walked while a velocity was wrong that is reset now, m. Nothing resets the
+  /// height as fixes do the place, so the filter has to doubt it for the barometer to have it back.
+  /// @param was_off_down  by how much the velocity down is reset, m/s
+  double height_lost(double was_off_down) const;
 
   /// What to do with a sample of the compass.
   /// @param nis  normalised innovation squared

@@ -183,6 +183,7 @@ void Ekf::fuse_velocity(const GnssObservation& fix, Time now, Update& update) {
   } else if (verdict == Verdict::kReset) {
     velocity_believed(now, fix.dv_N.norm());
     decorrelate(P_, kV, 3, fix.variance_v.maxCoeff());
+    P_(kDown, kDown) += square(height_lost(fix.dv_N.z()));
     x_.v_NB_B += model.C.leftCols<3>().transpose() * fix.dv_N;
   }
 }

@@ -163,6 +163,9 @@ void ErrorStateFilter::correct_baro(double difference, Time now) {
   const double CPCt = C * PCt(kDdown) + PCt(kDb);
   const double S = CPCt + R;
   reaches_.pressure = Gate::reach(S, wanted.gate);
+  // With a velocity that may be wrong the height walks, and the filter would take it for a walk of the
+  // pressure.
+  if (velocity_disputed(now)) return;
   const Verdict verdict = baro_gate().judge(square(innovation) / S, wanted.gate, wanted.persistence, now);
   if (verdict == Verdict::kReject) return;
   if (verdict == Verdict::kReset) {
@@ -198,6 +201,7 @@ void ErrorStateFilter::fuse_velocity(const GnssObservation& fix, Time now, Updat
   } else if (verdict == Verdict::kReset) {
     velocity_believed(now, fix.dv_N.norm());
     decorrelate(P_, kDv, 3, fix.variance_v.maxCoeff());
+    P_(kDdown, kDdown) += square(height_lost(fix.dv_N.z()));
     update.correction.segment<3>(kDv) = fix.dv_N;
   }
 }

@@ -61,6 +61,10 @@ class Gate {
 
   double nis() const { return nis_; }
   bool disagreeing() const { return disagreeing_; }
+  /// Whether it disagrees and the last refusal is at most this long ago, s.
+  bool disagreed_within(double duration, Time now) const {
+    return disagreeing_ && seconds(now - last_) <= duration;
+  }
   int rejected() const { return rejected_; }
   int resets() const { return resets_; }
 

@@ -7,6 +7,7 @@
 #include "scenarios/app/command_line.hpp"
 #include "scenarios/app/exit_code.hpp"
 #include "scenarios/app/verb_options.hpp"
+#include "scenarios/config/config_error.hpp"
 #include "scenarios/report/report.hpp"
 
 namespace ironbird::scenarios {
@@ -22,6 +23,11 @@ int report(const ReportArguments& arguments) {
   std::vector<ReportRun> runs;
   for (const std::string& file : arguments.logs) {
     const std::filesystem::path log = file;
+    std::error_code not_there;
+    if (std::filesystem::equivalent(log, arguments.out, not_there)) {
+      throw ConfigError("--out " + arguments.out + ": is the log " + file +
+                        " itself; name another file, for example report.html");
+    }
     const std::filesystem::path folder = log.parent_path();
     runs.push_back(ReportRun::read(folder.empty() ? log.stem().string() : folder.filename().string(), log,
                                    folder / "verdict.json"));

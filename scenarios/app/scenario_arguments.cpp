@@ -47,8 +47,9 @@ std::vector<std::pair<std::string, std::string>> split_settings(const std::vecto
   return pairs;
 }
 
-std::vector<std::uint64_t> parse_seeds(const std::string& text) {
-  if (text.empty()) return {};
+std::vector<std::uint64_t> parse_seeds(const std::optional<std::string>& asked) {
+  if (!asked) return {};
+  const std::string& text = *asked;
   const std::string_view all = text;
   const std::size_t colon = all.find(':');
   const std::uint64_t first = parse_seed(all.substr(0, colon), text);

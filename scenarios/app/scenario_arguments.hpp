@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +14,7 @@ class VerbOptions;
 struct ScenarioArguments {
   std::vector<std::string> files;
   std::vector<std::string> settings;
-  std::string seeds;
+  std::optional<std::string> seeds;
 };
 
 void add_scenario_arguments(VerbOptions& options, ScenarioArguments& arguments);
@@ -23,6 +24,6 @@ std::vector<std::pair<std::string, std::string>> split_settings(const std::vecto
 
 /// The seeds that "7" or "1:20" means. Empty: the scenario's own seed.
 /// @throws ConfigError for what means none, and for too many
-std::vector<std::uint64_t> parse_seeds(const std::string& text);
+std::vector<std::uint64_t> parse_seeds(const std::optional<std::string>& asked);
 
 }  // namespace ironbird::scenarios

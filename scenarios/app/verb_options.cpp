@@ -38,6 +38,11 @@ VerbOptions::Option VerbOptions::option(const char* names, std::string& value, c
   return Option(app_.add_option(names, value, help));
 }
 
+VerbOptions::Option VerbOptions::option(const char* names, std::optional<std::string>& value,
+                                        const std::string& help) {
+  return Option(app_.add_option(names, value, help));
+}
+
 VerbOptions::Option VerbOptions::option(const char* names, std::vector<std::string>& values,
                                         const std::string& help) {
   return Option(app_.add_option(names, values, help));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ class VerbOptions {
 
   /// @param names  "--out", several with commas; without dashes: a word at its place
   Option option(const char* names, std::string& value, const std::string& help);
+  /// Tells an empty word from none.
+  Option option(const char* names, std::optional<std::string>& value, const std::string& help);
   Option option(const char* names, std::vector<std::string>& values, const std::string& help);
   Option option(const char* names, int& value, const std::string& help);
   Option option(const char* names, double& value, const std::string& help);

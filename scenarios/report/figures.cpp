@@ -195,7 +195,13 @@ plot::Panel rotor_panel(const std::vector<ReportRun>& runs, const char* title, c
                                                 : "";
       maker.add(name, "thin c" + std::to_string(runs.size() == 1 ? rotor : i % 8), std::move(curve), topic);
     }
-    if (!any) maker.add("", "", {}, topic);
+    // A log that has the field says that nothing turned; one without it says nothing.
+    if (any) continue;
+    if (curve_of(runs[i], topic, field + "[0]").empty()) {
+      maker.add("", "", {}, topic);
+    } else {
+      maker.when_empty("it was zero all the time");
+    }
   }
   return std::move(maker).done();
 }
@@ -206,7 +212,11 @@ plot::Panel battery_panel(const std::vector<ReportRun>& runs, const char* title,
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Curve curve = curve_of(runs[i], kTruthTopic, field);
     const std::string name = runs.size() == 1 ? "" : runs[i].label();
-    maker.add(name, "c" + std::to_string(i % 8), is_used(curve) ? std::move(curve) : Curve{}, kTruthTopic);
+    if (!curve.empty() && !is_used(curve)) {
+      maker.when_empty("it was zero all the time");
+      continue;
+    }
+    maker.add(name, "c" + std::to_string(i % 8), std::move(curve), kTruthTopic);
   }
   return std::move(maker).done();
 }

@@ -128,6 +128,24 @@ TEST_P(FilterTest, BelievesTheFixesAfterAPauseInWhichItMayHaveDrifted) {
   EXPECT_EQ(x.position_reset_sum_N.z(), 0.0);
 }
 
+TEST_P(FilterTest, FindsTheHeightAgainThatWalkedOffWithAWrongVelocity) {
+  // GIVEN a barometer that is told to weigh as little as those of real vehicles do
+  AidingParams aiding;
+  aiding.baro.sigma = 100.0;
+  make(aiding, false);
+  fly_armed();
+  // WHEN the accelerometer is wrong for a second, until the Doppler sets the velocity right
+  sensors.errors.accelerometer_bias = {5.0, 5.0, -5.0};
+  fly(1.0);
+  sensors.errors.accelerometer_bias.setZero();
+  fly(1.0);
+  ASSERT_GT(std::abs(x.p_NB_N.z() - sensors.truth().p_N.z()), 5.0);
+  // THEN the barometer sets the height right, too
+  fly(10.0);
+  EXPECT_LT(std::abs(x.p_NB_N.z() - sensors.truth().p_N.z()), 1.0);
+  EXPECT_LT(speed_error(), kGoodSpeed);
+}
+
 TEST_P(FilterTest, IsAsSureOfThePlaceItIsSetToAsTheGateIsOfAFix) {
   AidingParams aiding;
   aiding.gnss.sigma_horizontal = 15.0;
