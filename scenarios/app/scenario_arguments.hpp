@@ -22,7 +22,8 @@ void add_scenario_arguments(VerbOptions& options, ScenarioArguments& arguments);
 /// Path and text of each `--set`. @throws ConfigError for one that is not path=value
 std::vector<std::pair<std::string, std::string>> split_settings(const std::vector<std::string>& settings);
 
-/// The seeds that "7" or "1:20" means. Empty: the scenario's own seed.
+/// The seeds that "7" or "1:20" means.
+/// @param asked  absent: nothing was asked for  @return none then: the scenario's own seed flies
 /// @throws ConfigError for what means none, and for too many
 std::vector<std::uint64_t> parse_seeds(const std::optional<std::string>& asked);
 
