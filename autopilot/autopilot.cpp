@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "autopilot/handover.hpp"
 #include "autopilot/math/finite.hpp"
 
 namespace ironbird::autopilot {
@@ -97,7 +98,9 @@ RequestOutcome exchange(std::unique_ptr<Base>& place, AutopilotConfig::Slot& slo
   }
   if (const std::string reason = newcomer->objection(signals); !reason.empty()) return {false, reason};
   settle(*newcomer, wish.slot, slot.period, table);
-  newcomer->take_over(signals);
+  Handover left(signals);
+  place->hand_over(left);
+  newcomer->take_over(left);
   place = std::move(newcomer);
   slot.kind = wish.kind;
   return {true, ""};
@@ -147,7 +150,7 @@ RequestOutcome Autopilot::request(const Request& request) {
     if (path_planner_->request(*wish, signals_.estimate)) return {true, ""};
     return {false, "the path planner cannot do this with the present route"};
   }
-  if (std::holds_alternative<ListRoute>(request)) return {true, "", path_planner_->wanted()};
+  if (std::holds_alternative<ListRoute>(request)) return {true, "", path_planner_->wanted().waypoints};
   if (const auto* wish = std::get_if<SetParameter>(&request)) return set(*wish);
   if (const auto* wish = std::get_if<SwapModule>(&request)) return swap(*wish);
   if (const auto* wish = std::get_if<OverrideSetpoint>(&request)) return fly(*wish);

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "autopilot/autopilot.hpp"
+#include "autopilot/handover.hpp"
 #include "autopilot/path_manager/minimum_snap_trajectory.hpp"
 #include "autopilot/test/little_vehicle.hpp"
 #include "ci/yardstick/in_turns.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "autopilot/controller/phase_table.hpp"
-#include "autopilot/signals.hpp"
+#include "autopilot/handover.hpp"
 
 namespace ironbird::autopilot {
 
@@ -34,7 +34,6 @@ void CascadedController::reset() {
   Controller::reset();
   cascade_.reset();
   touch_down_.reset();
-  wishes_.fill(false);
   armed_at_.reset();
   seen_disarmed_ = false;
   rest_.reset();
@@ -42,32 +41,29 @@ void CascadedController::reset() {
   descent_.reset();
 }
 
-void CascadedController::take_over(const Signals& signals) {
-  Controller::take_over(signals);
+void CascadedController::take_over(const Handover& left) {
+  Controller::take_over(left);
   touch_down_.restore(memory().on_ground);
   upright_.restore(memory().given_up);
   rest_.restore(memory().may_lie);
-  if (!signals.flight.fcu.overridden()) cascade_.resume(signals.command, signals.estimate);
+  if (!left.flight.fcu.overridden()) cascade_.resume(left.command, left.estimate);
   if (memory().has_point) return;
   notebook().has_point = true;
-  notebook().point_N = signals.estimate.p_NB_N;
-  notebook().point_heading = signals.estimate.heading;
+  notebook().point_N = left.estimate.p_NB_N;
+  notebook().point_heading = left.estimate.heading;
 }
 
-RequestOutcome CascadedController::request(FlightWish wish, const StateEstimate& estimate,
-                                           const FcuStatus& status) {
-  const std::string_view reason = why_not(wish, {.phase = phase(),
-                                                 .armed = status.armed,
-                                                 .failsafe = status.failsafe,
-                                                 .pilot_holds = status.pilot_holds(),
-                                                 .estimate_usable = is_usable(estimate),
-                                                 .position_known = estimate.position_known,
-                                                 .position_doubtful = estimate.position_doubtful,
-                                                 .on_ground = touch_down_.felt(),
-                                                 .overturned = upright_.overturned()});
-  if (!reason.empty()) return {false, std::string(reason)};
-  wishes_[static_cast<std::size_t>(wish)] = true;
-  return {true, ""};
+std::string_view CascadedController::refusal(FlightWish wish, const StateEstimate& estimate,
+                                             const FcuStatus& status) const {
+  return why_not(wish, {.phase = phase(),
+                        .armed = status.armed,
+                        .failsafe = status.failsafe,
+                        .pilot_holds = status.pilot_holds(),
+                        .estimate_usable = is_usable(estimate),
+                        .position_known = estimate.position_known,
+                        .position_doubtful = estimate.position_doubtful,
+                        .on_ground = touch_down_.felt(),
+                        .overturned = upright_.overturned()});
 }
 
 void CascadedController::probe(ProbeVisitor& visit) const {
@@ -82,7 +78,6 @@ FcuCommand CascadedController::control(const ControlSetpoint& setpoint, bool lan
   watch(estimate, status);
   const FlightPhase before = step.phase;
   const PhaseStep next = next_phase(before, inputs(setpoint, landing, estimate, status, before));
-  wishes_.fill(false);
   if (next.phase != before) {
     step = next;
     enter(next.phase, before, estimate);
@@ -173,7 +168,7 @@ bool CascadedController::take_off_wanted(const ControlSetpoint& setpoint, const 
                                          const FcuStatus& status, FlightPhase phase) const {
   // Whoever takes the vehicle between the grant and the step keeps it.
   if (status.failsafe || status.pilot_holds() || upright_.overturned()) return false;
-  if (wishes_[static_cast<std::size_t>(FlightWish::kTakeOff)]) return true;
+  if (wished(FlightWish::kTakeOff)) return true;
   return params().take_off_on_arming && phase == FlightPhase::kDisarmed && armed_at_ &&
          seconds(estimate.stamp - *armed_at_) <= params().arming_patience &&
          !std::holds_alternative<NoSetpoint>(setpoint);
@@ -197,8 +192,8 @@ PhaseInputs CascadedController::inputs(const ControlSetpoint& setpoint, bool lan
       in.estimate_usable && estimate.p_NB_N.z() <= target_down + params().take_off_height_threshold;
   in.hold_over = in_phase >= params().take_off_hold_time;
   in.route_lands = landing;
-  in.landing_wanted = wishes_[static_cast<std::size_t>(FlightWish::kLand)];
-  in.resume_wanted = wishes_[static_cast<std::size_t>(FlightWish::kResume)];
+  in.landing_wanted = wished(FlightWish::kLand);
+  in.resume_wanted = wished(FlightWish::kResume);
   in.on_ground = touch_down_.felt();
   in.rests_with_pilot = rests_with_pilot(estimate);
   in.silence_short = in_phase <= params().silence_patience;

@@ -110,13 +110,14 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
  public:
   CascadedController() : cascade_(params()) {}
 
-  RequestOutcome request(FlightWish wish, const StateEstimate& estimate, const FcuStatus& status) override;
   void reset() override;
-  void take_over(const Signals& signals) override;
+  void take_over(const Handover& left) override;
   void probe(ProbeVisitor& visit) const override;
 
  protected:
   void on_parameters() override { cascade_.set_params(params()); }
+  std::string_view refusal(FlightWish wish, const StateEstimate& estimate,
+                           const FcuStatus& status) const override;
   FcuCommand control(const ControlSetpoint& setpoint, bool landing, const StateEstimate& estimate,
                      const FcuStatus& status, double dt, PhaseStep& step) override;
 
@@ -142,7 +143,6 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
 
   Cascade cascade_;
   TouchDown touch_down_;
-  std::array<bool, 3> wishes_{};  // one for each FlightWish, for the next step only
   bool seen_disarmed_ = false;    // by this object, in the step before
   std::optional<Time> armed_at_;  // none: not armed, or not seen to arm
   RestWatch rest_;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "autopilot/handover.hpp"
 #include "autopilot/math/finite.hpp"
-#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 
@@ -20,6 +20,7 @@ const FcuCommand& Controller::run(const ControlSetpoint& setpoint, bool landing,
   position_reset_sum_N_ = estimate.position_reset_sum_N;
   const FlightPhase before = phase();
   last_ = control(all_finite(setpoint) ? setpoint : kNothing, landing, estimate, status, dt, step_);
+  wishes_.fill(false);
   if (phase() != before) {
     memory_.phase_began = estimate.stamp;
     if (before == FlightPhase::kDisarmed || phase() == FlightPhase::kTakeOff) {
@@ -39,21 +40,34 @@ bool Controller::stands_still(const StateEstimate& estimate) {
   return so;
 }
 
+RequestOutcome Controller::request(FlightWish wish, const StateEstimate& estimate, const FcuStatus& status) {
+  const std::string_view why = refusal(wish, estimate, status);
+  if (!why.empty()) return {false, std::string(why)};
+  wishes_[static_cast<std::size_t>(wish)] = true;
+  return {true, ""};
+}
+
 void Controller::reset() {
   last_ = SilenceCommand{};
   step_ = PhaseStep{};
   memory_ = FlightMemory{};
+  wishes_.fill(false);
   position_reset_sum_N_.setZero();
   divider_.reset();
   stamp_ = Time{-1};
   standing_still_ = 0;
 }
 
-void Controller::take_over(const Signals& signals) {
-  last_ = signals.command;
-  step_ = {signals.flight.phase, signals.flight.cause};
-  memory_ = signals.flight.memory;
-  position_reset_sum_N_ = signals.estimate.position_reset_sum_N;
+void Controller::hand_over(Handover& handover) const {
+  handover.wishes = wishes_;
+}
+
+void Controller::take_over(const Handover& left) {
+  last_ = left.command;
+  step_ = {left.flight.phase, left.flight.cause};
+  memory_ = left.flight.memory;
+  wishes_ = left.wishes;
+  position_reset_sum_N_ = left.estimate.position_reset_sum_N;
 }
 
 }  // namespace ironbird::autopilot

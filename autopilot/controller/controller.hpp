@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <string_view>
+
 #include "autopilot/controller/flight_phase.hpp"
 #include "autopilot/module/module.hpp"
 #include "autopilot/request.hpp"
@@ -28,19 +31,28 @@ class Controller : public Module {
   /// What a successor must know. Launch and beginning of the phase are kept for every controller.
   const FlightMemory& memory() const { return memory_; }
 
-  /// The operator's wish. Granted at the next step, or refused with a reason; never kept for later.
-  virtual RequestOutcome request(FlightWish wish, const StateEstimate& estimate, const FcuStatus& status) = 0;
+  /// The operator's wish. Granted at the next work, which may be a successor's, or refused with a reason;
+  /// never kept for later.
+  RequestOutcome request(FlightWish wish, const StateEstimate& estimate, const FcuStatus& status);
 
   void reset() override;
+  void hand_over(Handover& handover) const override;
 
-  /// Starts in the phase that the predecessor was in, with its memory.
-  void take_over(const Signals& signals) override;
+  /// Starts in the phase that the predecessor was in, with its memory and the wishes granted to it.
+  void take_over(const Handover& left) override;
 
  protected:
   /// The work. Sets `step` to the phase that it was in.
   /// @param dt  time since the previous call, s; 0 on the first
   virtual FcuCommand control(const ControlSetpoint& setpoint, bool landing, const StateEstimate& estimate,
                              const FcuStatus& status, double dt, PhaseStep& step) = 0;
+
+  /// Why a wish cannot be granted now; empty when it can.
+  virtual std::string_view refusal(FlightWish wish, const StateEstimate& estimate,
+                                   const FcuStatus& status) const = 0;
+
+  /// It was granted since the last work.
+  bool wished(FlightWish wish) const { return wishes_[static_cast<std::size_t>(wish)]; }
 
   /// The estimate is lost and its stamp has not moved for so many steps that no duration means anything.
   bool time_lost() const { return standing_still_ > kMostStandingStill; }
@@ -56,6 +68,7 @@ class Controller : public Module {
   FcuCommand last_ = SilenceCommand{};
   PhaseStep step_;
   FlightMemory memory_;
+  FlightWishes wishes_{};                           // for the next work only
   Vector3 position_reset_sum_N_ = Vector3::Zero();  // seen
   Time stamp_{-1};                                  // of the step before
   int standing_still_ = 0;                          // steps

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "autopilot/handover.hpp"
 #include "autopilot/math/euler_zyx.hpp"
 #include "autopilot/math/local_map.hpp"
 #include "autopilot/math/standard_atmosphere.hpp"
-#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 
@@ -92,9 +92,9 @@ std::string AidedEstimator::objection(const Signals& signals) const {
   return last.origin.known ? "" : "in flight it needs an estimate whose origin on the earth is known";
 }
 
-void AidedEstimator::take_over(const Signals& signals) {
-  Estimator::take_over(signals);
-  const StateEstimate& last = signals.estimate;
+void AidedEstimator::take_over(const Handover& left) {
+  Estimator::take_over(left);
+  const StateEstimate& last = left.estimate;
   if (last.health == Health::kLost) alignment_.restart_in_motion();
   if (last.health == Health::kUninitialised || last.health == Health::kLost || !last.origin.known) return;
   origin_pressure_.reset();
@@ -103,7 +103,7 @@ void AidedEstimator::take_over(const Signals& signals) {
   trust_.begin(heard_.gnss);
   offset_N_ = last.position_offset_N;
   doubts_ = last.position_doubtful ? 1 : 0;
-  was_armed_ = was_armed_ || signals.flight.fcu.armed || last.position_doubtful;
+  was_armed_ = was_armed_ || left.flight.fcu.armed || last.position_doubtful;
   previous_ = last.stamp;
   last_good_ = last;
 }

@@ -49,7 +49,7 @@ class AidedEstimator : public Estimator {
 
   /// Starts from the estimate of the module it replaces, with the age of its position. Height 0 of the
   /// barometer follows from its first sample. After an estimate that was lost it begins as in flight.
-  void take_over(const Signals& signals) override;
+  void take_over(const Handover& left) override;
 
   /// How often the state was not finite and was rebuilt.
   int recoveries() const { return recoveries_; }

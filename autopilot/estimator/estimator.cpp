@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "autopilot/signals.hpp"
+#include "autopilot/handover.hpp"
 
 namespace ironbird::autopilot {
 
@@ -179,8 +179,8 @@ void Estimator::forget_samples() {
   imu_was_away_ = false;
 }
 
-void Estimator::take_over(const Signals& signals) {
-  watch_.go_on_from(signals.estimate);
+void Estimator::take_over(const Handover& left) {
+  watch_.go_on_from(left.estimate);
 }
 
 void Estimator::reset() {

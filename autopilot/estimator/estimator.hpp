@@ -39,7 +39,7 @@ class Estimator : public Module {
   void reset() override;
 
   /// A jump from the estimate of the predecessor is counted as any other.
-  void take_over(const Signals& signals) override;
+  void take_over(const Handover& left) override;
 
  protected:
   /// The work. @param frame  all its samples are finite: `run` drops those that are not

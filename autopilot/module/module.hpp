@@ -11,6 +11,7 @@
 namespace ironbird::autopilot {
 
 struct Signals;
+struct Handover;
 
 /// Receives a module's private quantities. Each call gives one number with its name and unit.
 class ProbeVisitor {
@@ -66,9 +67,13 @@ class Module {
   /// newcomer before it replaces another module.
   virtual std::string objection(const Signals&) const { return {}; }
 
-  /// Called once on a module that replaces another one in flight, with all that the last tick computed, so
-  /// that it can start where its predecessor stopped.
-  virtual void take_over(const Signals&) {}
+  /// Called on a module that is about to be replaced: writes what was granted to it since the last tick, and
+  /// what it has not worked on yet. The interface of each slot does this for every kind.
+  virtual void hand_over(Handover&) const {}
+
+  /// Called once on a module that replaces another one in flight, with all that the last tick computed and
+  /// what its predecessor leaves, so that it can start where that stopped.
+  virtual void take_over(const Handover&) {}
 
  private:
   Time period_{0};

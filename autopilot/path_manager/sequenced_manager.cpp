@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "autopilot/signals.hpp"
+#include "autopilot/handover.hpp"
 
 namespace ironbird::autopilot {
 
@@ -39,7 +39,8 @@ void SequencedManager::reset() {
   flown_ = true;
   wait_on_ground();
   now_ = Time{0};
-  revision_ = released_ = holds_ = newest_id_ = size_ = 0;
+  noticed_.waypoints.clear();
+  noticed_.revision = noticed_.released = noticed_.holds = newest_id_ = size_ = 0;
   target_ = Waypoint{};
   position_reset_sum_N_.setZero();
 }
@@ -52,25 +53,27 @@ void SequencedManager::wait_on_ground() {
   flown_ = false;
 }
 
-void SequencedManager::take_over(const Signals& signals) {
-  const TrajectoryPoint& last = signals.trajectory;
-  revision_ = signals.route.revision;
-  released_ = signals.route.released;
-  holds_ = signals.route.holds;
-  size_ = size_of(signals.route);
-  position_reset_sum_N_ = signals.estimate.position_reset_sum_N;
-  for (const Waypoint& waypoint : signals.route.waypoints) newest_id_ = std::max(newest_id_, waypoint.id);
+void SequencedManager::hand_over(Handover& handover) const {
+  handover.route = noticed_;
+}
+
+void SequencedManager::take_over(const Handover& left) {
+  const TrajectoryPoint& last = left.trajectory;
+  note(left.route);
+  size_ = size_of(left.route);
+  position_reset_sum_N_ = left.estimate.position_reset_sum_N;
+  for (const Waypoint& waypoint : left.route.waypoints) newest_id_ = std::max(newest_id_, waypoint.id);
   index_ = std::min(last.leg, size_);
-  if (index_ < size_) target_ = signals.route.waypoints[index_];
+  if (index_ < size_) target_ = left.route.waypoints[index_];
   reached_ = last.reached;
   counted_ = last.at_waypoint;
   hold_left_ = time_from(last.hold_left);
   pause_ = last.paused;
   pause_left_ = time_from(last.pause_left);
   departed_ = true;
-  flown_ = signals.flight.companion_flies();
+  flown_ = left.flight.companion_flies();
   now_ = last.stamp;
-  if (!signals.flight.companion_flies() || !last.valid) return;
+  if (!left.flight.companion_flies() || !last.valid) return;
   MotionPoint from = resting_at(last.p_N, last.heading);
   from.v_N = last.v_N;
   from.a_N = last.a_N;
@@ -135,20 +138,24 @@ void SequencedManager::move_with(const StateEstimate& estimate) {
 }
 
 void SequencedManager::notice(const Route& route) {
-  released_now_ = route.released != released_;
-  released_ = route.released;
+  released_now_ = route.released != noticed_.released;
   // Whoever has the vehicle, a release ends what waits for one.
   if (released_now_ && mode_ == Mode::kAway) {
     pause_ = false;
     hold_left_ = Time{0};
   }
-  if (route.holds != holds_) {
+  if (route.holds != noticed_.holds) {
     pause_ = true;
     pause_left_ = time_from(route.hold_time);
   }
-  holds_ = route.holds;
-  if (route.revision != revision_) find_place(route);
-  revision_ = route.revision;
+  if (route.revision != noticed_.revision) find_place(route);
+  note(route);
+}
+
+void SequencedManager::note(const Route& route) {
+  if (route.revision != noticed_.revision) noticed_ = route;  // with memory for all that a route may hold
+  noticed_.released = route.released;
+  noticed_.holds = route.holds;
 }
 
 void SequencedManager::find_place(const Route& route) {

@@ -33,8 +33,11 @@ class SequencedManager : public PathManager {
   /// A motion goes on by no more than this in one step, unless the period is longer.
   static constexpr Time kLongestStep = std::chrono::milliseconds(20);
 
+  SequencedManager() { noticed_.waypoints.reserve(kMostWaypoints); }
+
   void reset() override;
-  void take_over(const Signals& signals) override;
+  void hand_over(Handover& handover) const override;
+  void take_over(const Handover& left) override;
   void probe(ProbeVisitor& visit) const override;
 
  protected:
@@ -75,6 +78,7 @@ class SequencedManager : public PathManager {
   TrajectoryPoint nothing_to_fly();
   void pass_time(Time since_last);
   void notice(const Route& route);
+  void note(const Route& route);
   void move_with(const StateEstimate& estimate);
   void find_place(const Route& route);
   void begin(const Route& route, const StateEstimate& estimate);
@@ -111,9 +115,7 @@ class SequencedManager : public PathManager {
   bool pause_ = false;     // a hold on the spot was asked for and is not over
   bool released_now_ = false;
   bool replan_ = false;
-  std::uint32_t revision_ = 0;
-  std::uint32_t released_ = 0;
-  std::uint32_t holds_ = 0;
+  Route noticed_;  // older than the route in force while this waits for its period or for an estimate
   std::uint32_t newest_id_ = 0;
   std::uint32_t size_ = 0;
   Vector3 position_reset_sum_N_ = Vector3::Zero();

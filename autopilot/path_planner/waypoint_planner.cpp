@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "autopilot/handover.hpp"
 #include "autopilot/math/angles.hpp"
 #include "autopilot/math/finite.hpp"
 #include "autopilot/math/local_map.hpp"
-#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 
@@ -34,22 +34,38 @@ bool is_acceptable(const Waypoint& waypoint) {
   return inside && all_finite(waypoint);
 }
 
+bool is_geodetic(const std::vector<Waypoint>& waypoints) {
+  return std::any_of(waypoints.begin(), waypoints.end(),
+                     [](const Waypoint& waypoint) { return waypoint.geodetic.has_value(); });
+}
+
 bool same_place(const LocalOrigin& a, const LocalOrigin& b) {
   return a.known == b.known && a.latitude == b.latitude && a.longitude == b.longitude &&
          a.altitude == b.altitude;
 }
 
+/// The route is what is wanted, about the origin of the estimate.
+bool in_force(const Handover& left) {
+  const auto same = [&](const Waypoint& wanted, const Waypoint& flown) {
+    return wanted.id == flown.id &&
+           (!wanted.geodetic || local_from_geodetic(*wanted.geodetic, left.estimate.origin) == flown.p_N);
+  };
+  return left.wanted.cyclic == left.route.cyclic &&
+         std::equal(left.wanted.waypoints.begin(), left.wanted.waypoints.end(), left.route.waypoints.begin(),
+                    left.route.waypoints.end(), same);
+}
+
 }  // namespace
 
 WaypointPlanner::WaypointPlanner() {
-  wanted_.reserve(kMostWaypoints);
+  wanted_.waypoints.reserve(kMostWaypoints);
   route_.waypoints.reserve(kMostWaypoints);
 }
 
 void WaypointPlanner::reset() {
   PathPlanner::reset();
-  wanted_.clear();
-  wanted_cyclic_ = waiting_ = geodetic_ = false;
+  wanted_.waypoints.clear();
+  wanted_.cyclic = waiting_ = geodetic_ = false;
   last_id_ = 0;
   origin_ = LocalOrigin{};
   flight_ = FlightMemory{};
@@ -59,41 +75,47 @@ void WaypointPlanner::reset() {
   route_.cyclic = false;
 }
 
-void WaypointPlanner::take_over(const Signals& signals) {
-  wanted_.assign(signals.route.waypoints.begin(), signals.route.waypoints.end());
-  wanted_cyclic_ = signals.route.cyclic;
-  route_ = signals.route;
+void WaypointPlanner::hand_over(Handover& handover) const {
+  PathPlanner::hand_over(handover);
+  handover.last_waypoint_id = last_id_;
+}
+
+void WaypointPlanner::take_over(const Handover& left) {
+  wanted_.waypoints.assign(left.wanted.waypoints.begin(), left.wanted.waypoints.end());
+  wanted_.cyclic = left.wanted.cyclic;
+  route_ = left.route;
   route_.waypoints.reserve(kMostWaypoints);
-  origin_ = signals.estimate.origin;
-  flight_ = signals.flight.memory;
-  geodetic_ =
-      std::any_of(wanted_.begin(), wanted_.end(), [](const Waypoint& w) { return w.geodetic.has_value(); });
-  for (const Waypoint& waypoint : wanted_) last_id_ = std::max(last_id_, waypoint.id);
+  origin_ = in_force(left) ? left.estimate.origin : LocalOrigin{};
+  flight_ = left.flight.memory;
+  geodetic_ = is_geodetic(wanted_.waypoints);
+  waiting_ = geodetic_ && !left.estimate.origin.known;
+  last_id_ = left.last_waypoint_id;
+  for (const Waypoint& waypoint : wanted_.waypoints) last_id_ = std::max(last_id_, waypoint.id);
 }
 
 bool WaypointPlanner::request(const RouteRequest& request, const StateEstimate& estimate) {
   return std::visit([&](const auto& wish) { return apply(wish, estimate); }, request);
 }
 
-const Route& WaypointPlanner::plan(const StateEstimate& estimate, const FlightStatus& flight, double) {
+void WaypointPlanner::plan(const StateEstimate& estimate, const FlightStatus& flight, double) {
   flight_ = flight.memory;
   if (geodetic_ && estimate.origin.known && !same_place(origin_, estimate.origin))
     put_in_force(estimate.origin);
-  return route_;
 }
 
 bool WaypointPlanner::apply(const AddWaypoint& wish, const StateEstimate& estimate) {
-  const std::size_t at = wish.at.value_or(static_cast<std::uint32_t>(wanted_.size()));
-  if (at > wanted_.size() || wanted_.size() >= kMostWaypoints || !is_acceptable(wish.waypoint)) return false;
-  const auto added = wanted_.insert(wanted_.begin() + static_cast<std::ptrdiff_t>(at), wish.waypoint);
+  std::vector<Waypoint>& wanted = wanted_.waypoints;
+  const std::size_t at = wish.at.value_or(static_cast<std::uint32_t>(wanted.size()));
+  if (at > wanted.size() || wanted.size() >= kMostWaypoints || !is_acceptable(wish.waypoint)) return false;
+  const auto added = wanted.insert(wanted.begin() + static_cast<std::ptrdiff_t>(at), wish.waypoint);
   added->id = ++last_id_;
   put_in_force(estimate.origin);
   return true;
 }
 
 bool WaypointPlanner::apply(const RemoveWaypoint& wish, const StateEstimate& estimate) {
-  if (wish.index >= wanted_.size()) return false;
-  wanted_.erase(wanted_.begin() + wish.index);
+  if (wish.index >= wanted_.waypoints.size()) return false;
+  wanted_.waypoints.erase(wanted_.waypoints.begin() + wish.index);
   put_in_force(estimate.origin);
   return true;
 }
@@ -136,24 +158,23 @@ bool WaypointPlanner::replace(const std::vector<Waypoint>& waypoints, bool cycli
                               const StateEstimate& estimate) {
   if (waypoints.size() > kMostWaypoints) return false;
   if (!std::all_of(waypoints.begin(), waypoints.end(), is_acceptable)) return false;
-  wanted_.assign(waypoints.begin(), waypoints.end());
-  for (Waypoint& waypoint : wanted_) waypoint.id = ++last_id_;
-  wanted_cyclic_ = cyclic;
+  wanted_.waypoints.assign(waypoints.begin(), waypoints.end());
+  for (Waypoint& waypoint : wanted_.waypoints) waypoint.id = ++last_id_;
+  wanted_.cyclic = cyclic;
   put_in_force(estimate.origin);
   return true;
 }
 
 void WaypointPlanner::put_in_force(const LocalOrigin& origin) {
-  geodetic_ =
-      std::any_of(wanted_.begin(), wanted_.end(), [](const Waypoint& w) { return w.geodetic.has_value(); });
+  geodetic_ = is_geodetic(wanted_.waypoints);
   waiting_ = geodetic_ && !origin.known;
   if (waiting_) return;
   origin_ = origin;
-  for (Waypoint& waypoint : wanted_) {
+  for (Waypoint& waypoint : wanted_.waypoints) {
     if (waypoint.geodetic) waypoint.p_N = local_from_geodetic(*waypoint.geodetic, origin);
   }
-  route_.waypoints.assign(wanted_.begin(), wanted_.end());
-  route_.cyclic = wanted_cyclic_;
+  route_.waypoints.assign(wanted_.waypoints.begin(), wanted_.waypoints.end());
+  route_.cyclic = wanted_.cyclic;
   ++route_.revision;
 }
 

@@ -32,13 +32,15 @@ class WaypointPlanner final : public Tunable<PathPlanner, WaypointPlannerParams>
   bool request(const RouteRequest& request, const StateEstimate& estimate) override;
 
   void reset() override;
-  void take_over(const Signals& signals) override;
+  void hand_over(Handover& handover) const override;
+  void take_over(const Handover& left) override;
 
-  const std::vector<Waypoint>& wanted() const override { return wanted_; }
+  const SetRoute& wanted() const override { return wanted_; }
+  const Route& route() const override { return route_; }
   bool waits_for_origin() const { return waiting_; }
 
  protected:
-  const Route& plan(const StateEstimate& estimate, const FlightStatus& flight, double dt) override;
+  void plan(const StateEstimate& estimate, const FlightStatus& flight, double dt) override;
 
  private:
   bool apply(const AddWaypoint& wish, const StateEstimate& estimate);
@@ -51,8 +53,7 @@ class WaypointPlanner final : public Tunable<PathPlanner, WaypointPlannerParams>
   bool replace(const std::vector<Waypoint>& waypoints, bool cyclic, const StateEstimate& estimate);
   void put_in_force(const LocalOrigin& origin);
 
-  std::vector<Waypoint> wanted_;
-  bool wanted_cyclic_ = false;
+  SetRoute wanted_;
   bool waiting_ = false;
   bool geodetic_ = false;
   std::uint32_t last_id_ = 0;

@@ -23,8 +23,9 @@ inline Waypoint place(double north, double east, double down, WaypointKind kind 
 /// An autopilot around the little vehicle.
 class AutopilotFlight : public ::testing::Test {
  protected:
-  explicit AutopilotFlight(const Modules& modules = standard_modules())
-      : autopilot_{on_external_pose(), modules} {}
+  explicit AutopilotFlight(const Modules& modules = standard_modules(),
+                           const AutopilotConfig& config = on_external_pose())
+      : autopilot_{config, modules} {}
 
   const Signals& step() {
     vehicle_.fly(autopilot_.step(vehicle_.frame()));

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <string_view>
 
 #include "autopilot/test/autopilot_flight.hpp"
 
@@ -132,6 +134,107 @@ TEST_P(SwapTest, BrakesNoHarderThanTheOperatorHasAllowed) {
   EXPECT_LT(hardest, 0.51);
 }
 
+TEST_P(SwapTest, LandsWhenAskedToBetweenTheSameTwoTicks) {
+  ask(RouteRequest{SetRoute{{place(0, 0, -4)}, false}});
+  take_off();
+  fly(6.0);
+  ask(Land{});
+  swap();
+  step();
+  step();
+  EXPECT_EQ(autopilot_.signals().flight.phase, FlightPhase::kLanding);
+}
+
+TEST_P(SwapTest, TakesOffWhenAskedToBetweenTheSameTwoTicks) {
+  ask(RouteRequest{SetRoute{{place(0, 0, -4)}, false}});
+  vehicle_.status.armed = true;
+  step();
+  ask(TakeOff{});
+  swap();
+  step();
+  step();
+  EXPECT_EQ(autopilot_.signals().flight.phase, FlightPhase::kTakeOff);
+}
+
+TEST_P(SwapTest, FliesTheRouteThatWasSetBeforeTheFirstTick) {
+  if (std::string_view(GetParam().slot) == "estimator") GTEST_SKIP() << "it wants to hear a pose first";
+  ask(RouteRequest{SetRoute{{place(2, 0, -4), place(4, 0, -4)}, true}});
+  swap();
+  take_off();
+  EXPECT_TRUE(until(30.0, [](const Signals& s) { return s.trajectory.reached == 3; }));
+}
+
+TEST_P(SwapTest, HoldsWhenAskedToBetweenTheSameTwoTicks) {
+  ask(RouteRequest{SetRoute{{place(40, 0, -4)}, false}});
+  take_off();
+  ASSERT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.v_N.norm() > 1.0; }));
+  ask(RouteRequest{HoldHere{6.0}});
+  swap();
+  EXPECT_TRUE(until(5.0, [](const Signals& s) { return s.trajectory.holding; }));
+  EXPECT_TRUE(until(40.0, [](const Signals& s) { return s.trajectory.finished; }));
+}
+
+TEST_P(SwapTest, FliesOnWhenReleasedBetweenTheSameTwoTicks) {
+  ask(RouteRequest{SetRoute{{place(10, 0, -4)}, false}});
+  take_off();
+  fly(3.0);
+  ask(RouteRequest{HoldHere{}});
+  ASSERT_TRUE(until(5.0, [](const Signals& s) { return s.trajectory.holding; }));
+  ask(RouteRequest{Release{}});
+  swap();
+  EXPECT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.finished; }));
+}
+
+TEST_P(SwapTest, EditsTheRouteWhenAskedToBetweenTheSameTwoTicks) {
+  ask(RouteRequest{SetRoute{{place(3, 0, -4), place(6, 0, -4), place(6, 6, -4)}, false}});
+  take_off();
+  fly(1.0);
+  ask(RouteRequest{RemoveWaypoint{1}});
+  swap();
+  step();
+  ASSERT_EQ(autopilot_.signals().route.waypoints.size(), 2u);
+  ask(RouteRequest{AddWaypoint{place(0, 6, -4), {}}});
+  swap();
+  swap();
+  step();
+  ASSERT_EQ(autopilot_.signals().route.waypoints.size(), 3u);
+  ASSERT_TRUE(until(60.0, [](const Signals& s) { return s.trajectory.finished; }));
+  EXPECT_EQ(autopilot_.signals().trajectory.reached, 3u);
+  EXPECT_LT((vehicle_.p_NB_N - Vector3(0, 6, -4)).norm(), 0.6);
+}
+
+TEST_P(SwapTest, FliesANewRouteFromItsBeginningThoughTheLastWaypointOfTheOldOneWasRemoved) {
+  ask(RouteRequest{SetRoute{{place(3, 0, -4), place(6, 0, -4), place(40, 0, -4)}, false}});
+  take_off();
+  ASSERT_TRUE(until(30.0, [](const Signals& s) { return s.trajectory.leg == 1; }));
+  ask(RouteRequest{RemoveWaypoint{2}});
+  swap();
+  ask(RouteRequest{SetRoute{{place(3, 3, -4), place(6, 3, -4), place(9, 3, -4)}, false}});
+  step();
+  EXPECT_EQ(autopilot_.signals().trajectory.leg, 0u);
+}
+
+TEST_P(SwapTest, ReturnsWhenAskedToBetweenTheSameTwoTicks) {
+  ask(RouteRequest{SetRoute{{place(10, 0, -4)}, false}});
+  take_off();
+  ASSERT_TRUE(until(30.0, [](const Signals& s) { return s.trajectory.finished; }));
+  ask(RouteRequest{ReturnToLaunch{}});
+  swap();
+  ASSERT_TRUE(until(40.0, [](const Signals& s) { return s.flight.phase == FlightPhase::kLanding; }));
+  EXPECT_LT(vehicle_.p_NB_N.head<2>().norm(), 0.5);
+}
+
+TEST_P(SwapTest, StaysWhereItIsWhenTheRouteWasClearedBetweenTheSameTwoTicks) {
+  ask(RouteRequest{SetRoute{{place(40, 0, -4)}, false}});
+  take_off();
+  ASSERT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.v_N.norm() > 1.0; }));
+  ask(RouteRequest{ClearRoute{}});
+  swap();
+  fly(10.0);
+  EXPECT_TRUE(autopilot_.signals().route.waypoints.empty());
+  EXPECT_LT(vehicle_.v_NB_N.norm(), 0.05);
+}
+
 INSTANTIATE_TEST_SUITE_P(Slots, SwapTest,
                          ::testing::Values(Swap{"Estimator", "estimator", "external_pose"},
                                            Swap{"Planner", "path_planner", "waypoint_planner"},
@@ -186,6 +289,41 @@ INSTANTIATE_TEST_SUITE_P(
                       ManagerSwap{"CurvesToLegs", "minimum_snap_manager", "smoothstep_manager"},
                       ManagerSwap{"CurvesToCurves", "minimum_snap_manager", "minimum_snap_manager"}),
     [](const auto& swap) { return swap.param.name; });
+
+/// Modules that work every tenth of a second, and what was asked for while they rest.
+class SlowSwapTest : public AutopilotFlight {
+ protected:
+  static AutopilotConfig slow() {
+    AutopilotConfig config = on_external_pose();
+    config.path_manager.period = config.path_planner.period = std::chrono::milliseconds(100);
+    return config;
+  }
+  SlowSwapTest() : AutopilotFlight(standard_modules(), slow()) {}
+};
+
+TEST_F(SlowSwapTest, HoldsThoughTheManagerWasExchangedBeforeItHadTimeToNotice) {
+  ask(RouteRequest{SetRoute{{place(40, 0, -4)}, false}});
+  take_off();
+  ASSERT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.v_N.norm() > 1.0; }));
+  const Time worked = autopilot_.signals().trajectory.stamp;
+  ASSERT_TRUE(until(0.2, [&](const Signals& s) { return s.trajectory.stamp != worked; }));
+  ask(RouteRequest{HoldHere{}});
+  fly(0.05);
+  ask(SwapModule{"path_manager", "minimum_snap_manager", {}});
+  EXPECT_TRUE(until(5.0, [](const Signals& s) { return s.trajectory.holding; }));
+}
+
+TEST_F(SlowSwapTest, FliesANewRouteFromItsBeginningThoughTheManagerHadNoTimeToNotice) {
+  ask(RouteRequest{SetRoute{{place(3, 0, -4), place(40, 0, -4)}, false}});
+  take_off();
+  ASSERT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.leg == 1; }));
+  ask(RouteRequest{SetRoute{{place(3, 3, -4), place(6, 3, -4)}, false}});
+  fly(0.05);
+  ASSERT_EQ(autopilot_.signals().trajectory.leg, 1u);
+  ask(SwapModule{"path_manager", "smoothstep_manager", {}});
+  step();
+  EXPECT_EQ(autopilot_.signals().trajectory.leg, 0u);
+}
 
 using SwapSettingsTest = AutopilotFlight;
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "autopilot/handover.hpp"
 #include "autopilot/math/angles.hpp"
-#include "autopilot/signals.hpp"
 #include "autopilot/trajectory_follower/flatness.hpp"
 
 namespace ironbird::autopilot {
@@ -67,12 +67,12 @@ ControlSetpoint FlatPidFollower::track(const TrajectoryPoint& point, const State
   return flat_inverse(specific_force_N_, estimate.heading, turn, p.mass);
 }
 
-void FlatPidFollower::take_over(const Signals& signals) {
-  const auto* asked = std::get_if<AngleHeadingRateThrust>(&signals.setpoint);
-  const bool flew = signals.flight.companion_flies() && signals.trajectory.valid;
-  if (asked == nullptr || !flew || !is_usable(signals.estimate.health)) return;
-  const StateEstimate& estimate = signals.estimate;
-  const TrajectoryPoint& point = signals.trajectory;
+void FlatPidFollower::take_over(const Handover& left) {
+  const auto* asked = std::get_if<AngleHeadingRateThrust>(&left.setpoint);
+  const bool flew = left.flight.companion_flies() && left.trajectory.valid;
+  if (asked == nullptr || !flew || !is_usable(left.estimate.health)) return;
+  const StateEstimate& estimate = left.estimate;
+  const TrajectoryPoint& point = left.trajectory;
   const Vector3 u_N = specific_force(*asked, estimate.heading, params().mass);
   const Vector3 by_loops_N = u_N + Vector3(0.0, 0.0, params().gravity) - fed_forward(point);
   const Vector3 error_N = position_error(point, estimate);

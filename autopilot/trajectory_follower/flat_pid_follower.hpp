@@ -88,7 +88,7 @@ class FlatPidFollower final : public Tunable<TrajectoryFollower, FlatPidFollower
 
   void reset() override;
   /// Goes on from the specific force that was asked for last; the heading has no integral worth keeping.
-  void take_over(const Signals& signals) override;
+  void take_over(const Handover& left) override;
   void probe(ProbeVisitor& visit) const override;
 
  protected:

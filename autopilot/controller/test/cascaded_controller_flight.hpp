@@ -5,7 +5,7 @@
 #include <string>
 
 #include "autopilot/controller/cascaded_controller.hpp"
-#include "autopilot/signals.hpp"
+#include "autopilot/handover.hpp"
 
 namespace ironbird::autopilot {
 

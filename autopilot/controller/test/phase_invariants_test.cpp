@@ -5,7 +5,7 @@
 
 #include "autopilot/controller/cascaded_controller.hpp"
 #include "autopilot/controller/phase_table.hpp"
-#include "autopilot/signals.hpp"
+#include "autopilot/handover.hpp"
 
 namespace ironbird::autopilot {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "autopilot/estimator/external_pose_estimator.hpp"
+#include "autopilot/handover.hpp"
 #include "autopilot/math/euler_zyx.hpp"
-#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 namespace {

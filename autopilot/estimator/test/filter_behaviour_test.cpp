@@ -11,8 +11,8 @@
 #include "autopilot/estimator/error_state_filter.hpp"
 #include "autopilot/estimator/test/fake_flight.hpp"
 #include "autopilot/estimator/test/filter_fixture.hpp"
+#include "autopilot/handover.hpp"
 #include "autopilot/math/angles.hpp"
-#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 namespace {

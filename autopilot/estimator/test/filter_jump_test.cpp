@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "autopilot/estimator/test/filter_fixture.hpp"
-#include "autopilot/signals.hpp"
+#include "autopilot/handover.hpp"
 
 // What the filters make of satellite fixes that jump. Instantiated in filter_behaviour_test.cpp.
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "autopilot/estimator/test/filter_fixture.hpp"
-#include "autopilot/signals.hpp"
+#include "autopilot/handover.hpp"
 
 // What is left of an estimate when samples, stamps or a module go missing, and how it is found again.
 // Instantiated in filter_behaviour_test.cpp.

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "autopilot/handover.hpp"
 #include "autopilot/path_manager/smoothstep_manager.hpp"
 #include "autopilot/path_manager/test/perfect_flight.hpp"
-#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 namespace {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "autopilot/handover.hpp"
 #include "autopilot/math/smoothstep.hpp"
 #include "autopilot/path_manager/test/perfect_flight.hpp"
-#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 namespace {

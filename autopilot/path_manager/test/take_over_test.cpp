@@ -3,10 +3,10 @@
 #include <memory>
 #include <numbers>
 
+#include "autopilot/handover.hpp"
 #include "autopilot/path_manager/minimum_snap_manager.hpp"
 #include "autopilot/path_manager/smoothstep_manager.hpp"
 #include "autopilot/path_manager/test/perfect_flight.hpp"
-#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "autopilot/handover.hpp"
 #include "autopilot/math/local_map.hpp"
-#include "autopilot/signals.hpp"
 
 namespace ironbird::autopilot {
 namespace {
@@ -86,7 +86,7 @@ TEST_P(RefusedRequestTest, ChangesNothing) {
   const std::uint32_t revision = planner.run(estimate, FlightStatus{}).revision;
   EXPECT_FALSE(planner.request(GetParam().request, estimate));
   EXPECT_EQ(planner.run(estimate, FlightStatus{}).revision, revision);
-  EXPECT_EQ(planner.wanted().size(), 2u);
+  EXPECT_EQ(planner.wanted().waypoints.size(), 2u);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -200,6 +200,47 @@ TEST_F(WaypointPlannerTest, ReturnsToTheLaunchThatItsPredecessorSaw) {
   estimate_.p_NB_N << 50.0, 60.0, -2.0;
   ASSERT_TRUE(ask(ReturnToLaunch{})) << "even before its first step";
   EXPECT_EQ(run().waypoints[1].p_N, Vector3(3.0, 4.0, -6.0));
+}
+
+TEST_F(WaypointPlannerTest, LeavesItsSuccessorTheWaypointsThatWaitForAnOrigin) {
+  const LocalOrigin origin{true, 40.0 * kDegree, -111.0 * kDegree, 1387.0};
+  Waypoint on_earth;
+  on_earth.geodetic = geodetic_from_local(Vector3(100.0, 50.0, -20.0), origin);
+  ask(AddWaypoint{at(1, 0, 0), {}});
+  Signals last;
+  last.route = run();
+  ask(SetRoute{{on_earth}, true});
+  // The estimate may have found the origin before the planner has worked on it, if that has a period.
+  for (const LocalOrigin& known_by_now : {LocalOrigin{}, origin}) {
+    estimate_.origin = last.estimate.origin = known_by_now;
+    Handover left(last);
+    planner_.hand_over(left);
+    WaypointPlanner successor;
+    successor.take_over(left);
+    EXPECT_EQ(successor.waits_for_origin(), !known_by_now.known);
+    EXPECT_EQ(successor.route().waypoints[0].p_N, Vector3(1.0, 0.0, 0.0)) << "in force meanwhile";
+    estimate_.origin = origin;
+    const Route& route = successor.run(estimate_, flight_);
+    EXPECT_TRUE(route.cyclic);
+    EXPECT_LT((route.waypoints[0].p_N - Vector3(100.0, 50.0, -20.0)).norm(), kMicrometre);
+    EXPECT_GT(route.revision, last.route.revision);
+  }
+}
+
+TEST_F(WaypointPlannerTest, LeavesARouteInForceAsItIs) {
+  const LocalOrigin origin{true, 40.0 * kDegree, -111.0 * kDegree, 1387.0};
+  Waypoint on_earth;
+  on_earth.geodetic = geodetic_from_local(Vector3(100.0, 50.0, -20.0), origin);
+  estimate_.origin = origin;
+  ask(SetRoute{{on_earth}, true});
+  Signals last;
+  last.route = run();
+  last.estimate = estimate_;
+  Handover left(last);
+  planner_.hand_over(left);
+  WaypointPlanner successor;
+  successor.take_over(left);
+  EXPECT_EQ(successor.run(estimate_, flight_).revision, last.route.revision) << "or the manager plans anew";
 }
 
 TEST_F(WaypointPlannerTest, ForgetsEverythingOnReset) {

@@ -37,13 +37,11 @@ class TellingEstimator final : public autopilot::Estimator {
 /// Commands what the estimate tells: throttle in ten thousandths of the stamp's ticks, pressure as roll rate.
 /// Silent while the stamp is a multiple of 100 ticks.
 class TellingController final : public autopilot::Controller {
- public:
-  autopilot::RequestOutcome request(autopilot::FlightWish, const autopilot::StateEstimate&,
-                                    const autopilot::FcuStatus&) override {
-    return {};
-  }
-
  protected:
+  std::string_view refusal(autopilot::FlightWish, const autopilot::StateEstimate&,
+                           const autopilot::FcuStatus&) const override {
+    return "it flies by itself";
+  }
   autopilot::FcuCommand control(const autopilot::ControlSetpoint&, bool,
                                 const autopilot::StateEstimate& estimate, const autopilot::FcuStatus&, double,
                                 autopilot::PhaseStep&) override {
