@@ -14,6 +14,7 @@
 #include "scenarios/app/scene.hpp"
 #include "scenarios/app/verb_options.hpp"
 #include "scenarios/bench/bench.hpp"
+#include "scenarios/video/video_sink.hpp"
 
 namespace ironbird::scenarios {
 
@@ -21,7 +22,8 @@ namespace {
 
 struct CheckArguments {
   ScenarioArguments scenarios;
-  bool pictures = false;
+  bool video = false;
+  bool snapshots = false;
 };
 
 /// What is wrong with one file: what loading finds, then what making the objects of a run finds, unless they
@@ -47,6 +49,7 @@ Failure failure_in(const std::string& file, const Overrides& overrides, bool pic
 }
 
 int check(const CheckArguments& arguments, const autopilot::Modules& modules) {
+  if (arguments.video) check_encoder();
   const std::vector<std::string>& files = arguments.scenarios.files;
   Overrides overrides{split_settings(arguments.scenarios.settings), std::nullopt};
   // What a scenario's objects are does not depend on the seed.
@@ -55,7 +58,8 @@ int check(const CheckArguments& arguments, const autopilot::Modules& modules) {
   std::size_t count = 0, wrong = 0;
   int code = kExitPass;
   for (const std::string& file : files) {
-    const Failure failure = failure_in(file, overrides, arguments.pictures, modules, count);
+    const bool pictures = arguments.video || arguments.snapshots;
+    const Failure failure = failure_in(file, overrides, pictures, modules, count);
     std::fprintf(stderr, "%s\n", failure.text.c_str());
     code = std::max(code, failure.exit_code);
     wrong += failure.exit_code == kExitPass ? 0 : 1;
@@ -73,7 +77,9 @@ Verb check_verb() {
   return {"check", "validate scenarios without flying them", [](VerbOptions& options) {
             auto arguments = std::make_shared<CheckArguments>();
             add_scenario_arguments(options, arguments->scenarios);
-            options.flag("--video,--snapshots", arguments->pictures,
+            options.flag("--video", arguments->video,
+                         "it is to be filmed: a vehicle without a scene is a finding, as is no encoder");
+            options.flag("--snapshots", arguments->snapshots,
                          "it is to be drawn: a vehicle without a scene is a finding");
             options.footer(
                 "Tells every finding of every file in a line of its own, `file:line:column: path = value:\n"

@@ -101,9 +101,10 @@ std::vector<std::filesystem::path> make_snapshots(const Log& log, const SceneFil
     options.quality = simulator::Quality::kStill;
     options.cuts = {{0.0, snapshot.camera}};
     const FilmScript script = film_script(log, options);
+    const simulator::Image picture = stills(script, {frame_at(script, time)}).front();
     make_folder(folder);
     files.push_back(folder / (snapshot.name + ".png"));
-    write_png(stills(script, {frame_at(script, time)}).front(), files.back());
+    write_png(picture, files.back());
   }
   return files;
 }

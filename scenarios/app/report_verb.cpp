@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenarios/app/command_line.hpp"
@@ -23,14 +24,16 @@ int report(const ReportArguments& arguments) {
   std::vector<ReportRun> runs;
   for (const std::string& file : arguments.logs) {
     const std::filesystem::path log = file;
-    std::error_code not_there;
-    if (std::filesystem::equivalent(log, arguments.out, not_there)) {
-      throw ConfigError("--out " + arguments.out + ": is the log " + file +
+    const std::filesystem::path folder = log.parent_path();
+    const std::filesystem::path verdict = folder / "verdict.json";
+    for (const auto& [read, what] : {std::pair(log, "log "), std::pair(verdict, "verdict ")}) {
+      std::error_code not_there;
+      if (!std::filesystem::equivalent(read, arguments.out, not_there)) continue;
+      throw ConfigError("--out " + arguments.out + ": is the " + what + read.string() +
                         " itself; name another file, for example report.html");
     }
-    const std::filesystem::path folder = log.parent_path();
-    runs.push_back(ReportRun::read(folder.empty() ? log.stem().string() : folder.filename().string(), log,
-                                   folder / "verdict.json"));
+    runs.push_back(
+        ReportRun::read(folder.empty() ? log.stem().string() : folder.filename().string(), log, verdict));
     for (const std::string& note : runs.back().notes())
       std::fprintf(stderr, "%s: warning: %s\n", file.c_str(), note.c_str());
   }

@@ -15,6 +15,7 @@
 #include "scenarios/app/scenario_arguments.hpp"
 #include "scenarios/app/terminal.hpp"
 #include "scenarios/app/verb_options.hpp"
+#include "scenarios/video/video_sink.hpp"
 
 namespace ironbird::scenarios {
 
@@ -93,6 +94,7 @@ void check_arguments(const RunArguments& arguments) {
   if (!arguments.products.log && (arguments.products.video || arguments.products.snapshots)) {
     throw ConfigError("--no-log: film and snapshots are made from the log; leave one of the options away");
   }
+  if (arguments.products.video) check_encoder();
   if (arguments.out.empty()) throw ConfigError("--out: must name a folder");
 }
 

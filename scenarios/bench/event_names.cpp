@@ -1,6 +1,7 @@
 #include "scenarios/bench/event_names.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 #include "autopilot/types/flight_status.hpp"
@@ -15,6 +16,10 @@ namespace ironbird::scenarios {
 namespace {
 
 constexpr std::string_view kWaypoint = "waypoint_";
+constexpr std::string_view kOfFcu = "fcu:";
+/// What the bench puts in front of what happens when the scenario wants it or asks for it.
+constexpr std::array<std::string_view, 9> kKindsOfDeeds{
+    "request", kRefusedEvent, "answer", "pilot", "fault", "fault_end", "snapshot", "fcu", "interlock"};
 /// Its text says why: a check names the kind.
 constexpr std::string_view kKilled = "killed";
 /// A return to launch is a route of two waypoints of its own.
@@ -66,6 +71,7 @@ EventNames::EventNames(const Scenario& scenario) {
   if (!scenario.cyclic) waypoints_ = reachable_waypoints(scenario);
   add_flight(scenario);
   add_waypoints(scenario);
+  of_the_run_ = names_.size();
   add_own(scenario);
 }
 
@@ -85,7 +91,9 @@ void EventNames::add_flight(const Scenario& scenario) {
     names_.push_back({"phase", std::string(name)});
   for (const auto& [value, name] : enumerators(autopilot::PhaseCause{}))
     names_.push_back({"cause", std::string(name)});
-  if (scenario.pilot.automatic) names_.push_back({"request", "take_off"});
+  if (!scenario.pilot.automatic) return;
+  names_.push_back({"request", "take_off"});
+  names_.push_back({std::string(kRefusedEvent), "take_off"});
 }
 
 void EventNames::add_bus(const std::string& kind) {
@@ -135,7 +143,7 @@ void EventNames::add_deed(const EventConfig& event) {
     if (event.lasts > 0.0) names_.push_back({"fault_end", text});
   } else {
     names_.push_back({event.pilot ? "pilot" : "request", text});
-    if (!event.pilot) names_.push_back({"refused", text});
+    if (!event.pilot) names_.push_back({std::string(kRefusedEvent), text});
   }
 }
 
@@ -153,10 +161,22 @@ bool EventNames::known(const std::string& name, Waiting waiting) const {
   const auto is_name = [&](std::string_view one) { return one == name; };
   const bool is_kind = std::ranges::any_of(kPositionEvents, is_name) || name == kKilled;
   if (waiting == Waiting::kCheck && is_kind) return true;
-  if (name.starts_with("fcu:") || name.starts_with("refused:") || is_waypoint(name)) return true;
+  if ((name.starts_with(kOfFcu) && name.size() > kOfFcu.size()) || is_waypoint(name)) return true;
   return std::any_of(names_.begin(), names_.end(), [&](const Name& n) {
     return name == n.text || (waiting == Waiting::kCheck && name == n.kind) || name == n.kind + ":" + n.text;
   });
+}
+
+std::string EventNames::objection(const std::string& name) const {
+  if (name.find(':') != std::string::npos) return "must be without ':', which stands behind a kind of event";
+  const auto is_name = [&](std::string_view one) { return one == name; };
+  const auto end = names_.begin() + static_cast<std::ptrdiff_t>(of_the_run_);
+  const bool taken =
+      std::ranges::any_of(kKindsOfDeeds, is_name) || std::ranges::any_of(kPositionEvents, is_name) ||
+      name == kKilled || is_waypoint(name) || std::any_of(names_.begin(), end, [&](const Name& n) {
+        return n.kind != "request" && n.kind != kRefusedEvent && (name == n.text || name == n.kind);
+      });
+  return taken ? "the run itself has events of this name; must be another" : "";
 }
 
 std::vector<std::string> EventNames::spoken(Waiting waiting) const {
@@ -166,8 +186,10 @@ std::vector<std::string> EventNames::spoken(Waiting waiting) const {
     all.emplace_back(kKilled);
   }
   for (const Name& name : names_) {
-    // What begins and what ends a fault have one text: with its kind the end is told from the beginning.
-    all.push_back(name.kind == "fault_end" ? name.kind + ":" + name.text : name.text);
+    // What begins and what ends a fault have one text, as a request and its refusal: the kind tells them
+    // apart.
+    const bool needs_kind = name.kind == "fault_end" || name.kind == kRefusedEvent;
+    all.push_back(needs_kind ? name.kind + ":" + name.text : name.text);
     if (waiting == Waiting::kCheck) all.push_back(name.kind);
   }
   return all;

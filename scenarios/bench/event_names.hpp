@@ -26,7 +26,8 @@ std::string stand_event(std::size_t motor, bool ready);
 /// Every name by which an event of a run of this scenario can be called, known before it is flown.
 ///
 /// Beside the scenario's own events these are phases, arming, health, ground contact and waypoints. What the
-/// FCU says is not known in advance: `fcu:` with any text behind it counts as known.
+/// FCU says is not known in advance: `fcu:` with any text behind it counts as known, and is told from a wrong
+/// one by nobody.
 class EventNames {
  public:
   /// Who waits: a deed of the scenario waits for a text or `kind:text`, a check may wait for a kind too.
@@ -36,6 +37,10 @@ class EventNames {
 
   /// Why an event of this name cannot happen, with the nearest name that can; empty when it can.
   std::string complaint(const std::string& name, Waiting waiting) const;
+
+  /// Why the scenario cannot call an event of its own so: who waits for it would be served by another, or by
+  /// none. Empty when it can.
+  std::string objection(const std::string& name) const;
 
  private:
   struct Name {
@@ -54,6 +59,7 @@ class EventNames {
   std::vector<std::string> spoken(Waiting waiting) const;
 
   std::vector<Name> names_;
+  std::size_t of_the_run_ = 0;            ///< how many of these, in front, are not the scenario's own
   std::vector<std::string> in_circles_;   ///< of events that wait, in the end, for themselves
   std::optional<std::size_t> waypoints_;  ///< that can be reached; nothing: a cyclic route goes on for ever
 };

@@ -102,6 +102,8 @@ class EventRules {
   /// What waits for it would not know for which.
   void check_name(const std::string& path, std::size_t index) {
     const std::string& name = scenario_.events[index].name;
+    if (const std::string why = names_.objection(name); !why.empty())
+      findings_.push_back(path + ".name = \"" + name + "\": " + why);
     for (std::size_t i = 0; i < index; ++i) {
       if (name.empty() || scenario_.events[i].name != name) continue;
       findings_.push_back(path + ".name = \"" + name + "\": event[" + std::to_string(i) +

@@ -7,6 +7,7 @@
 #include "scenarios/bench/run_time.hpp"
 #include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/requirements/number_text.hpp"
+#include "scenarios/requirements/window.hpp"
 
 namespace ironbird::scenarios {
 
@@ -20,14 +21,17 @@ bool forbids_flight(const CheckConfig& check) {
                      [&](const std::string& name) { return name == kLiftedOff || name == in_full; });
 }
 
-/// Names a refusal, or any.
-bool expects_refusal(const CheckConfig& check) {
-  const auto is_refusal = [](const std::string& event) { return event.starts_with(kRefusedEvent); };
-  const auto names_one = [&](const std::optional<std::vector<std::string>>& events) {
-    return events && std::any_of(events->begin(), events->end(), is_refusal);
-  };
-  return names_one(check.order_of_events) || names_one(check.none_of_events) || is_refusal(check.after) ||
-         is_refusal(check.until);
+/// Says that it happens.
+bool expects(const CheckConfig& check, const RunEvent& event) {
+  const auto means_it = [&](const std::string& name) { return is_called(event, name); };
+  return (check.order_of_events &&
+          std::any_of(check.order_of_events->begin(), check.order_of_events->end(), means_it)) ||
+         means_it(Moment::read(check.after, "after").event) ||
+         means_it(Moment::read(check.until, "until").event);
+}
+
+bool is_crash(const RunEvent& event) {
+  return event.kind == "ground" && event.text == kCrashed;
 }
 
 /// The take-off that the pilot asks for by himself; a vehicle that takes off when it is armed needs none.
@@ -39,6 +43,10 @@ bool is_the_pilots_own(const RunEvent& refusal, const Scenario& scenario) {
 
 std::string about_refusal(const RunEvent& refusal) {
   return "request at " + with_unit(refusal.time, "s") + " was refused: " + refusal.text;
+}
+
+std::string name_it(std::string_view event) {
+  return "let a check name it: order_of_events = [\"" + std::string(event) + "\"]";
 }
 
 std::string why_left(const Script::Left& left) {
@@ -114,12 +122,18 @@ std::vector<std::string> Playbook::gaps(const std::vector<RunEvent>& events) con
     if (deed.kind == Deed::Kind::kEvent && !scenario_.events[deed.index].optional)
       gaps.push_back(name_of(deed) + why_left(left) + "; if it need not come, say so: optional = true");
   }
-  if (std::any_of(checks.begin(), checks.end(), expects_refusal)) return gaps;
+  const auto expected = [&](const RunEvent& event) {
+    return std::any_of(checks.begin(), checks.end(),
+                       [&](const auto& check) { return expects(check, event); });
+  };
   for (const RunEvent& event : events) {
-    if (event.kind == kRefusedEvent && !is_the_pilots_own(event, scenario_)) {
-      gaps.push_back(about_refusal(event) + "; if it should be, let a check name it: order_of_events = [\"" +
-                     std::string(kRefusedEvent) + "\"]");
-    }
+    if (event.kind == kRefusedEvent && !is_the_pilots_own(event, scenario_) && !expected(event))
+      gaps.push_back(about_refusal(event) + "; if it should be, " + name_it(kRefusedEvent));
+  }
+  const auto crash = std::find_if(events.begin(), events.end(), is_crash);
+  if (crash != events.end() && !expected(*crash)) {
+    gaps.push_back("the vehicle crashed at " + with_unit(crash->time, "s") + "; if it should, " +
+                   name_it(kCrashed));
   }
   return gaps;
 }

@@ -65,6 +65,7 @@ class Loader {
     for (const toml::node& element : *list) {
       const auto text = element.value<std::string>();
       if (!text) throw ConfigError(place_of(element) + ": include: must be an array of paths");
+      if (text->empty()) throw ConfigError(place_of(element) + ": include = [\"\"]: must name a file");
       result.emplace_back(find(*text, file), place_of(element));
     }
     own.erase("include");
@@ -165,6 +166,8 @@ std::string what_is_there(toml::table& root, const std::vector<Step>& steps) {
     if (inner == nullptr) {
       if (array != nullptr)
         return ": " + path + " has " + std::to_string(array->size()) + " elements, from [0]";
+      if (table != nullptr && table->empty())  // made on the way here
+        return ": the file has no [[" + path + "]]; write one there";
       return table != nullptr ? ": " + path + " is a table" : ": " + path + " is a single value";
     }
     at = inner;

@@ -43,6 +43,7 @@ std::string meant_instead_of(const fs::path& file) {
 
 /// Why the file cannot be taken, or nothing.
 std::string why_unreadable(const fs::path& file) {
+  if (file.empty()) return "the name of the file is empty; name a TOML file";
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) {
@@ -64,7 +65,7 @@ std::string why_unreadable(const fs::path& file) {
 
 std::string read_config_text(const fs::path& file, const std::string& asked_by) {
   const std::string wrong = why_unreadable(file);
-  if (!wrong.empty()) throw ConfigError(asked_by + file.string() + ": " + wrong);
+  if (!wrong.empty()) throw ConfigError(asked_by + (file.empty() ? "" : file.string() + ": ") + wrong);
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();

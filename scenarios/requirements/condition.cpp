@@ -1,5 +1,6 @@
 #include "scenarios/requirements/condition.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -56,10 +57,23 @@ Condition Condition::read(const std::string& text, const SignalTable& table) {
     throw std::invalid_argument(left + " is a vector, name a component");
   }
   condition.value_ = named_value(right, condition.signal_);
+  condition.refuse_impossible();
   const bool is_equality =
       condition.comparison_ == Comparison::kEqual || condition.comparison_ == Comparison::kDifferent;
   condition.unit_ = is_equality ? "1" : condition.signal_.unit();
   return condition;
+}
+
+void Condition::refuse_impossible() const {
+  const SignalLeaf& leaf = signal_.leaf();
+  if (leaf.numbers.empty()) return;
+  const auto [least, greatest] = std::minmax_element(leaf.numbers.begin(), leaf.numbers.end());
+  const bool never = (comparison_ == Comparison::kAbove && value_ >= *greatest) ||
+                     (comparison_ == Comparison::kBelow && value_ <= *least);
+  if (!never) return;
+  std::string order;
+  for (const std::string& name : leaf.names) order += (order.empty() ? "" : " < ") + name;
+  throw std::invalid_argument(text_ + " can never be so; the order is " + order);
 }
 
 double Condition::margin() const {

@@ -33,6 +33,9 @@ class Condition {
  private:
   enum class Comparison { kEqual, kDifferent, kBelow, kAtMost, kAbove, kAtLeast };
 
+  /// A check that forbids what no value of an enumeration fulfils would never fail.
+  void refuse_impossible() const;
+
   std::string text_;
   std::string unit_;
   Signal signal_;

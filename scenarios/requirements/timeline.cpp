@@ -19,10 +19,12 @@ std::string name_of(Enum value) {
   return std::to_string(static_cast<int>(value));
 }
 
+constexpr std::string_view kWaypoint = "waypoint_";
+
 /// Wishes, switches, texts and pictures: that they bear the name of something does not mean that it happened.
 bool only_speaks(const RunEvent& event) {
-  return event.kind == "request" || event.kind == "refused" || event.kind == "pilot" || event.kind == "fcu" ||
-         event.kind == "snapshot";
+  return event.kind == "request" || event.kind == kRefusedEvent || event.kind == "pilot" ||
+         event.kind == "fcu" || event.kind == "snapshot";
 }
 
 /// True for the names that the flight itself gives to what happens in it.
@@ -35,17 +37,22 @@ bool is_of_the_flight(std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   return is_one_of(enumerators(autopilot::FlightPhase{})) || is_one_of(enumerators(autopilot::Health{})) ||
-         name.starts_with("waypoint_") || has(kGroundEvents) || has(kDoubtEvents) || has(kOthers);
-}
-
-bool is_called(const RunEvent& event, std::string_view name) {
-  if (name == event.kind) return true;
-  if (name == event.text) return event.kind != "refused" && !(only_speaks(event) && is_of_the_flight(name));
-  return name.size() == event.kind.size() + 1 + event.text.size() && name.starts_with(event.kind) &&
-         name[event.kind.size()] == ':' && name.ends_with(event.text);
+         (name.starts_with(kWaypoint) &&
+          name.find_first_not_of("0123456789", kWaypoint.size()) == name.npos) ||
+         has(kGroundEvents) || has(kDoubtEvents) || has(kOthers);
 }
 
 }  // namespace
+
+bool is_called(const RunEvent& event, std::string_view name) {
+  if (name == event.kind) return true;
+  const bool is_refusal = event.kind == kRefusedEvent;
+  std::string_view text = event.text;
+  if (is_refusal) text = text.substr(0, text.find(": "));
+  if (name == text) return !is_refusal && !(only_speaks(event) && is_of_the_flight(name));
+  return name.size() == event.kind.size() + 1 + text.size() && name.starts_with(event.kind) &&
+         name[event.kind.size()] == ':' && name.ends_with(text);
+}
 
 std::optional<std::size_t> Timeline::find(std::string_view name, double from,
                                           const std::vector<std::size_t>& but_not) const {

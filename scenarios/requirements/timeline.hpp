@@ -21,9 +21,10 @@ inline constexpr std::array<std::string_view, 2> kDoubtEvents{"doubtful", "sure"
 
 /// What the pilot sees of the ground: the vehicle leaves it, comes down on it well, or otherwise.
 inline constexpr std::string_view kLiftedOff = "lifted_off";
-inline constexpr std::array<std::string_view, 3> kGroundEvents{kLiftedOff, "landed", "crashed"};
+inline constexpr std::string_view kCrashed = "crashed";
+inline constexpr std::array<std::string_view, 3> kGroundEvents{kLiftedOff, "landed", kCrashed};
 
-/// Kind of the event that a request was not accepted.
+/// Kind of the event that a request was not accepted. Its text is that of the request, ": " and the reason.
 inline constexpr std::string_view kRefusedEvent = "refused";
 
 /// Something that happened in a run.
@@ -40,10 +41,13 @@ struct RunEvent {
   }
 };
 
+/// True when a check that says `name` means this event.
+bool is_called(const RunEvent& event, std::string_view name);
+
 /// The events of a run in order of time. An event is called by its text (`offboard`), by its kind (`fault`),
 /// or, where the text is not enough, by both (`fault_end:gnss_dropout`). The names of the flight's own
 /// events, `take_off` or `landing`, mean just these: that somebody asked for a take-off is
-/// `request:take_off`. A request that was refused is found by its kind only.
+/// `request:take_off`. A request that was refused is found by its kind, `refused`, and by `refused:take_off`.
 class Timeline {
  public:
   void add(double time, std::string kind, std::string text) {

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -44,6 +46,12 @@ bool write_all(int descriptor, std::span<const std::uint8_t> bytes) {
   }
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return whole;
+}
+
+std::string cannot_start(const std::string& program, int error) {
+  return "films need the program '" + program + "', which " +
+         (error == ENOENT ? "was not found" : std::string("cannot be started: ") + std::strerror(error)) +
+         "; install it";
 }
 
 class Mp4Sink final : public VideoSink {
@@ -83,7 +91,9 @@ class Mp4Sink final : public VideoSink {
     if (wait() != 0) {
       fail();
     }
-    std::filesystem::rename(part_, file_);
+    std::error_code error;
+    std::filesystem::rename(part_, file_, error);
+    if (error) fail();
   }
 
  private:
@@ -132,11 +142,8 @@ class Mp4Sink final : public VideoSink {
       process_ = -1;
       ::close(input_);
       ::close(complaints_);
-      throw UserError(file_.string() + ": " +
-                      (error == ENOENT ? "the program '" + program_ +
-                                             "' is needed for films and was not found; install it, or name "
-                                             "a .y4m file, which needs none"
-                                       : "cannot start '" + program_ + "': " + std::strerror(error)));
+      throw UserError(file_.string() + ": " + cannot_start(program_, error) +
+                      ", or name a .y4m file, which needs none");
     }
   }
 
@@ -157,7 +164,11 @@ class Mp4Sink final : public VideoSink {
       line.assign(text.data(), static_cast<std::size_t>(count));
       line.erase(std::min(line.find_first_of("\r\n"), line.size()));
     }
-    throw UserError(with_remedy(file_.string() + ": '" + program_ + "' failed: " + line));
+    const std::string message = file_.string() + ": '" + program_ + "' failed: " + line;
+    const std::string helped = with_remedy(message);
+    throw UserError(helped != message ? helped
+                                      : message + "; see whether `" + program_ +
+                                            " -version` works, or name a .y4m file, which needs none");
   }
 
   std::string program_;
@@ -169,6 +180,20 @@ class Mp4Sink final : public VideoSink {
 };
 
 }  // namespace
+
+void check_encoder(const std::string& program) {
+  const char* folders = std::getenv("PATH");
+  std::istringstream line(folders != nullptr ? folders : "");
+  int error = ENOENT;
+  for (std::string folder; std::getline(line, folder, ':');) {
+    const std::string file = (folder.empty() ? "." : folder) + "/" + program;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) continue;
+    if (::access(file.c_str(), X_OK) == 0) return;
+    error = EACCES;
+  }
+  throw UserError("--video: " + cannot_start(program, error) + ", or leave the option away");
+}
 
 std::unique_ptr<VideoSink> make_mp4_sink(const std::filesystem::path& file, const VideoFormat& format,
                                          const std::string& preset, const std::string& program) {

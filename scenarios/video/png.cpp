@@ -37,13 +37,12 @@ void write_png(const Image& image, const std::filesystem::path& file) {
   png_image description = empty_description();
   description.width = static_cast<png_uint_32>(image.width());
   description.height = static_cast<png_uint_32>(image.height());
-  const std::filesystem::path part = file.string() + ".part";
-  if (png_image_write_to_file(&description, part.c_str(), 0, rgb.data(), 0, nullptr) == 0) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(description);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&description, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0)
     fail(file, std::string("cannot be written: ") + description.message);
-  }
-  std::filesystem::rename(part, file);
+  bytes.resize(size);
+  write_file(file, bytes);
 }
 
 Image read_png(const std::filesystem::path& file) {

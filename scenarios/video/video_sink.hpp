@@ -35,6 +35,10 @@ class VideoSink {
   virtual void finish() = 0;
 };
 
+/// Finds out before the work whether make_mp4_sink() could start its program. @throws UserError that says
+/// what to install
+void check_encoder(const std::string& program = "ffmpeg");
+
 /// Uncompressed YUV4MPEG2.
 std::unique_ptr<VideoSink> make_y4m_sink(const std::filesystem::path& file, const VideoFormat& format);
 

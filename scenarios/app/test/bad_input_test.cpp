@@ -22,6 +22,20 @@ TEST_P(BadInputTest, GetsOneClearLineAndLeavesNothingBehind) {
   EXPECT_FALSE(std::filesystem::exists(out / "bad"));
 }
 
+TEST(NoEncoderTest, IsSaidBeforeTheFlight) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("good.toml", kMission);
+  const std::string nowhere = "PATH=" + folder.text() + " ";
+  for (const std::string& verb : {std::string("check "), "run --out " + folder.text() + "/out "}) {
+    const Said said = run_shell(nowhere + kProgram + " " + verb + file + " --video");
+    EXPECT_EQ(said.exit_code, 2) << said.text;
+    EXPECT_EQ(said.text,
+              "--video: films need the program 'ffmpeg', which was not found; install it, or leave the "
+              "option away\n");
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 namespace {
 
 std::string long_route(int waypoints) {
@@ -324,7 +338,8 @@ INSTANTIATE_TEST_SUITE_P(
                  kMission,
                  "--set seed=-1",
                  {"--set seed=-1: seed = -1: must be between 0 and 9223372036854775807"}},
-        BadInput{"SeedOfAVariableThatIsEmpty", kMission, "--seed \"\"", {"--seed : must be a whole number"}},
+        BadInput{
+            "SeedOfAVariableThatIsEmpty", kMission, "--seed \"\"", {"--seed \"\": must be a whole number"}},
         BadInput{"SeedsThatRunBackwards", kMission, "--seed 20:1", {"--seed 20:1: runs backwards"}},
         BadInput{"SeedsWithoutEnd",
                  kMission,

@@ -156,6 +156,8 @@ INSTANTIATE_TEST_SUITE_P(
         PlaceCase{"FilmOfAnotherKind", "video $L --out $D/x.avi", "a film is .mp4 or .y4m"},
         PlaceCase{"ReportInPlaceOfAFolder", "report $L --out $D", "it is a folder; name a file in it"},
         PlaceCase{"ReportInPlaceOfItsLog", "report $L --out $L", "itself; name another file"},
+        PlaceCase{"ReportInPlaceOfItsVerdict", "report $L --out $D/flight/verdict.json",
+                  "verdict.json itself; name another file"},
         PlaceCase{"ReportInNoFolder", "report $L --out /nowhere/r.html",
                   "there is no folder /nowhere; make it"},
         PlaceCase{"FolderForALog", "report $D", "it is a folder; name the log in it"},

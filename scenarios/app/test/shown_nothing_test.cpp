@@ -98,6 +98,30 @@ TEST_F(ShownNothingTest, ARefusedRequestLeavesNoPass) {
   expect(fly(named), 0, "flight: pass\n");
 }
 
+TEST_F(ShownNothingTest, ARefusalIsExpectedOfTheRequestThatIsNamed) {
+  const std::string asks = kUpright + "[[event]]\nname = \"early\"\nat = \"7 s\"\nrequest = \"resume\"\n";
+  const auto named = [](const std::string& key, const std::string& event) {
+    return "[[check]]\nname = \"refuses\"\n" + key + " = [\"" + event + "\"]\n";
+  };
+  expect(fly(asks + named("order_of_events", "refused:early")), 0, "flight: pass\n");
+  expect(fly(asks + named("order_of_events", "refused:take_off")), 1, "flight: fail");
+  expect(fly(asks + named("none_of_events", "refused:early")), 1, "flight: fail");
+  expect(fly(asks + named("order_of_events", "refused:ealry")), 2, "did you mean 'refused:early'?");
+}
+
+TEST_F(ShownNothingTest, ACrashThatNoCheckExpectsLeavesNoPass) {
+  const std::string falls =
+      "duration = \"12 s\"\n[[waypoint]]\np_N = [0, 0, -3]\n[[event]]\nat = \"8 s\"\nfault = "
+      "\"rotor_loss\"\nindex = 0\n[[check]]\nname = \"flies\"\norder_of_events = [\"take_off\"]\n";
+  const auto about_it = [](const std::string& rest) { return "[[check]]\nname = \"falls\"\n" + rest + "\n"; };
+  expect(fly(falls), 5, "flight: inconclusive: the vehicle crashed at ");
+  expect(fly(falls), 5, "if it should, let a check name it: order_of_events = [\"crashed\"]");
+  expect(fly(falls + about_it("until = \"8 s\"\nnone_of_events = [\"crashed\"]")), 5,
+         "the vehicle crashed at ");
+  expect(fly(falls + about_it("none_of_events = [\"crashed\"]")), 1, "flight: fail: falls");
+  expect(fly(falls + about_it("order_of_events = [\"crashed\"]")), 0, "flight: pass\n");
+}
+
 TEST_F(ShownNothingTest, SeveralRunsSayItToo) {
   const std::string other = folder_.write("other.toml", kUpright + kLate);
   const Said said = fly(kUpright, " " + other + " --jobs 2");

@@ -120,6 +120,27 @@ TEST(EventNamesTest, KnowsThatNobodyFliesWhatNobodyArms) {
   EXPECT_EQ(of_deed(scenario, "offboard"), "");
 }
 
+TEST(EventNamesTest, LetsNoOwnEventPassForOneOfTheRun) {
+  const EventNames names(mission(3));
+  for (const char* name :
+       {"landing", "crashed", "armed", "lost", "doubtful", "estimate_lost", "waypoint_2", "route_finished",
+        "killed", "position_reset", "fault", "refused", "phase", "request"}) {
+    EXPECT_THAT(names.objection(name), HasSubstr("the run itself has events of this name")) << name;
+  }
+  EXPECT_THAT(names.objection("phase:landing"), HasSubstr("must be without ':'"));
+  for (const char* name : {"gust", "take_off_again", "landing_2", "waypoint_of_honour"})
+    EXPECT_EQ(names.objection(name), "") << name;
+}
+
+TEST(EventNamesTest, KnowsTheRefusalsThatThereCanBe) {
+  Scenario scenario = mission(1);
+  scenario.events = {deed("home", "")};
+  EXPECT_EQ(of_deed(scenario, "refused:home"), "");
+  EXPECT_EQ(of_deed(scenario, "refused:take_off"), "") << "the pilot's own";
+  EXPECT_NE(of_deed(scenario, "refused:hmoe"), "");
+  EXPECT_NE(of_deed(scenario, "fcu:"), "") << "it never says nothing";
+}
+
 TEST(EventNamesTest, NamesTheNearest) {
   EXPECT_EQ(of_deed(mission(1), "offbord"), "there is no such event; did you mean 'offboard'?");
   EXPECT_THAT(of_deed(mission(1), "x"), HasSubstr("there are "));

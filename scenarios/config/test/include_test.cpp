@@ -173,6 +173,11 @@ TEST_F(IncludeTest, RefusesWhatIsNoListOfPaths) {
   EXPECT_EQ(error("b.toml"), b + ":1:12: include: must be an array of paths");
 }
 
+TEST_F(IncludeTest, RefusesAnEmptyPath) {
+  const std::string a = file("a.toml", "include = [\"\"]\n");
+  EXPECT_EQ(error("a.toml"), a + ":1:12: include = [\"\"]: must name a file");
+}
+
 TEST_F(IncludeTest, SaysWhereAFileIsNoToml) {
   const std::string a = file("a.toml", "x = 1\ny = = 2\n");
   EXPECT_THAT(error("a.toml"), HasSubstr(a + ":2:5: "));
@@ -227,6 +232,8 @@ INSTANTIATE_TEST_SUITE_P(
                       PathCase{"list[x]", ": is no path, such as plant.engine or waypoint[0].heading"},
                       PathCase{"list[2].v", "=1: there is no such place: list has 2 elements, from [0]"},
                       PathCase{"numbers[3]", "=1: there is no such place: numbers has 3 elements, from [0]"},
+                      PathCase{"event[0].at",
+                               "=1: there is no such place: the file has no [[event]]; write one there"},
                       PathCase{"x.y", "=1: there is no such place: x is a single value"},
                       PathCase{"x[0]", "=1: there is no such place: x is a single value"}));
 

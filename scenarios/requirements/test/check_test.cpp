@@ -351,6 +351,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NearMetric", "metric = 'path_rms_totl_m'\nmetric_below = '1'", "'path_rms_total_m'"},
         Refusal{"ConditionOfNoValue", "happens = 'autopilot.flight.phase == flying'",
                 "happens = \"autopilot.flight.phase == flying\": flying is not a value of"},
+        Refusal{"ConditionAboveAll", "never_happens = 'autopilot.estimate.health > lost'",
+                "autopilot.estimate.health > lost can never be so; the order is uninitialised < good"},
+        Refusal{"ConditionBelowAll", "never_happens = 'autopilot.flight.phase < disarmed'", "never be so"},
         Refusal{"NoEvents", "order_of_events = []", "names no event"}),
     [](const auto& tested) { return tested.param.name; });
 

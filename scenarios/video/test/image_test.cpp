@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <vector>
 
+#include "scenarios/config/user_error.hpp"
 #include "scenarios/video/image_diff.hpp"
 #include "scenarios/video/png.hpp"
 #include "scenarios/video/video_sink.hpp"
@@ -155,10 +157,44 @@ TEST_F(ImageTest, SaysThatTheEncoderIsMissing) {
     make_mp4_sink(folder_ / "a.mp4", {16, 16, 30}, "ultrafast", "no-such-encoder");
     FAIL() << "no error";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("'no-such-encoder' is needed"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("'no-such-encoder', which was not found; install it"),
+              std::string::npos)
         << error.what();
   }
   EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(ImageTest, FindsTheEncoderOrSaysHowItCannotBeStarted) {
+  EXPECT_NO_THROW(check_encoder());
+  EXPECT_THROW(check_encoder("no-such-encoder"), UserError);
+  const std::string path = std::getenv("PATH");
+  std::ofstream(folder_ / "closed-encoder") << "#!/bin/sh\n";
+  setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
+  try {
+    check_encoder("closed-encoder");
+    ADD_FAILURE() << "no error";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("cannot be started: Permission denied; install it"),
+              std::string::npos)
+        << error.what();
+  }
+  fs::permissions(folder_ / "closed-encoder", fs::perms::owner_all);
+  EXPECT_NO_THROW(check_encoder("closed-encoder"));
+  setenv("PATH", path.c_str(), 1);
+}
+
+TEST_F(ImageTest, SaysThatTheEncoderMadeNothingThoughItEndedWell) {
+  const fs::path encoder = folder_ / "encoder";
+  std::ofstream(encoder) << "#!/bin/sh\ncat >/dev/null\n";
+  fs::permissions(encoder, fs::perms::owner_all);
+  try {
+    make_mp4_sink(folder_ / "a.mp4", {16, 16, 30}, "ultrafast", encoder.string())->finish();
+    ADD_FAILURE() << "no error";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("it gave no reason; see whether"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "a.mp4"));
 }
 
 TEST_F(ImageTest, RepeatsWhatTheEncoderComplainsAbout) {
