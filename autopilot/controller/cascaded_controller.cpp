@@ -46,7 +46,8 @@ void CascadedController::take_over(const Handover& left) {
   touch_down_.restore(memory().on_ground);
   upright_.restore(memory().given_up);
   rest_.restore(memory().may_lie);
-  if (!left.flight.fcu.overridden()) cascade_.resume(left.command, left.estimate);
+  // What is wished begins something new: going on as before would be to work against it.
+  if (!left.flight.fcu.overridden() && !left.wish) cascade_.resume(left.command, left.estimate);
   if (memory().has_point) return;
   notebook().has_point = true;
   notebook().point_N = left.estimate.p_NB_N;

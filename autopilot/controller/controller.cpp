@@ -20,7 +20,7 @@ const FcuCommand& Controller::run(const ControlSetpoint& setpoint, bool landing,
   position_reset_sum_N_ = estimate.position_reset_sum_N;
   const FlightPhase before = phase();
   last_ = control(all_finite(setpoint) ? setpoint : kNothing, landing, estimate, status, dt, step_);
-  wishes_.fill(false);
+  wish_.reset();
   if (phase() != before) {
     memory_.phase_began = estimate.stamp;
     if (before == FlightPhase::kDisarmed || phase() == FlightPhase::kTakeOff) {
@@ -43,7 +43,7 @@ bool Controller::stands_still(const StateEstimate& estimate) {
 RequestOutcome Controller::request(FlightWish wish, const StateEstimate& estimate, const FcuStatus& status) {
   const std::string_view why = refusal(wish, estimate, status);
   if (!why.empty()) return {false, std::string(why)};
-  wishes_[static_cast<std::size_t>(wish)] = true;
+  wish_ = wish;
   return {true, ""};
 }
 
@@ -51,7 +51,7 @@ void Controller::reset() {
   last_ = SilenceCommand{};
   step_ = PhaseStep{};
   memory_ = FlightMemory{};
-  wishes_.fill(false);
+  wish_.reset();
   position_reset_sum_N_.setZero();
   divider_.reset();
   stamp_ = Time{-1};
@@ -59,14 +59,14 @@ void Controller::reset() {
 }
 
 void Controller::hand_over(Handover& handover) const {
-  handover.wishes = wishes_;
+  handover.wish = wish_;
 }
 
 void Controller::take_over(const Handover& left) {
   last_ = left.command;
   step_ = {left.flight.phase, left.flight.cause};
   memory_ = left.flight.memory;
-  wishes_ = left.wishes;
+  wish_ = left.wish;
   position_reset_sum_N_ = left.estimate.position_reset_sum_N;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include "autopilot/controller/flight_phase.hpp"
@@ -32,13 +32,13 @@ class Controller : public Module {
   const FlightMemory& memory() const { return memory_; }
 
   /// The operator's wish. Granted at the next work, which may be a successor's, or refused with a reason;
-  /// never kept for later.
+  /// never kept for later. Of several before that the last one counts.
   RequestOutcome request(FlightWish wish, const StateEstimate& estimate, const FcuStatus& status);
 
   void reset() override;
   void hand_over(Handover& handover) const override;
 
-  /// Starts in the phase that the predecessor was in, with its memory and the wishes granted to it.
+  /// Starts in the phase that the predecessor was in, with its memory and the wish granted to it.
   void take_over(const Handover& left) override;
 
  protected:
@@ -51,8 +51,8 @@ class Controller : public Module {
   virtual std::string_view refusal(FlightWish wish, const StateEstimate& estimate,
                                    const FcuStatus& status) const = 0;
 
-  /// It was granted since the last work.
-  bool wished(FlightWish wish) const { return wishes_[static_cast<std::size_t>(wish)]; }
+  /// It is the last that was granted since the last work.
+  bool wished(FlightWish wish) const { return wish_ == wish; }
 
   /// The estimate is lost and its stamp has not moved for so many steps that no duration means anything.
   bool time_lost() const { return standing_still_ > kMostStandingStill; }
@@ -68,7 +68,7 @@ class Controller : public Module {
   FcuCommand last_ = SilenceCommand{};
   PhaseStep step_;
   FlightMemory memory_;
-  FlightWishes wishes_{};                           // for the next work only
+  std::optional<FlightWish> wish_;                  // for the next work only
   Vector3 position_reset_sum_N_ = Vector3::Zero();  // seen
   Time stamp_{-1};                                  // of the step before
   int standing_still_ = 0;                          // steps

@@ -15,9 +15,6 @@ constexpr std::array<std::pair<FlightWish, std::string_view>, 3> enumerators(Fli
   return {{{FlightWish::kTakeOff, "take_off"}, {FlightWish::kLand, "land"}, {FlightWish::kResume, "resume"}}};
 }
 
-/// Which are granted, one for each FlightWish.
-using FlightWishes = std::array<bool, enumerators(FlightWish{}).size()>;
-
 /// What decides the next phase.
 struct PhaseInputs {
   bool armed = false;              ///< the FCU says so

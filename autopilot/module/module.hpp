@@ -68,7 +68,8 @@ class Module {
   virtual std::string objection(const Signals&) const { return {}; }
 
   /// Called on a module that is about to be replaced: writes what was granted to it since the last tick, and
-  /// what it has not worked on yet. The interface of each slot does this for every kind.
+  /// what it has not worked on yet. PathPlanner and Controller do this for every kind; a kind that holds back
+  /// more, as SequencedManager does for its period, adds it.
   virtual void hand_over(Handover&) const {}
 
   /// Called once on a module that replaces another one in flight, with all that the last tick computed and

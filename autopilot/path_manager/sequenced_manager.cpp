@@ -1,6 +1,7 @@
 #include "autopilot/path_manager/sequenced_manager.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "autopilot/handover.hpp"
 
@@ -32,6 +33,14 @@ std::uint32_t size_of(const Route& route) {
   return static_cast<std::uint32_t>(route.waypoints.size());
 }
 
+/// With the memory that it has.
+void clear(Route& route) {
+  std::vector<Waypoint> memory = std::move(route.waypoints);
+  memory.clear();
+  route = Route{};
+  route.waypoints = std::move(memory);
+}
+
 }  // namespace
 
 void SequencedManager::reset() {
@@ -39,8 +48,8 @@ void SequencedManager::reset() {
   flown_ = true;
   wait_on_ground();
   now_ = Time{0};
-  noticed_.waypoints.clear();
-  noticed_.revision = noticed_.released = noticed_.holds = newest_id_ = size_ = 0;
+  clear(noticed_);
+  newest_id_ = size_ = 0;
   target_ = Waypoint{};
   position_reset_sum_N_.setZero();
 }
@@ -139,17 +148,27 @@ void SequencedManager::move_with(const StateEstimate& estimate) {
 
 void SequencedManager::notice(const Route& route) {
   released_now_ = route.released != noticed_.released;
-  // Whoever has the vehicle, a release ends what waits for one.
-  if (released_now_ && mode_ == Mode::kAway) {
+  const bool holds_now = route.holds != noticed_.holds;
+  // Of a hold and a release that are noticed together the last word counts.
+  const bool taken_back = holds_now && released_now_ && route.holds == route.holds_released;
+  if (released_now_ && mode_ == Mode::kAway) {  // whoever has the vehicle, a release ends what waits for one
     pause_ = false;
     hold_left_ = Time{0};
+  } else if (released_now_ && holds_now && !taken_back) {
+    end_wait();
   }
-  if (route.holds != noticed_.holds) {
+  if (holds_now) released_now_ = false;
+  if (holds_now && !taken_back) {
     pause_ = true;
     pause_left_ = time_from(route.hold_time);
   }
   if (route.revision != noticed_.revision) find_place(route);
   note(route);
+}
+
+/// By a release: that on the spot, or else that at a waypoint, for which it may be braking after an exchange.
+void SequencedManager::end_wait() {
+  if (!std::exchange(pause_, false)) hold_left_ = Time{0};
 }
 
 void SequencedManager::note(const Route& route) {
@@ -214,7 +233,7 @@ void SequencedManager::step(const Route& route, const StateEstimate& estimate) {
 }
 
 void SequencedManager::step_brake(const Route& route) {
-  if (released_now_) pause_ = false;
+  if (released_now_) end_wait();
   const MotionPoint stop = reference();
   if (!stop.ended) return;
   if (pause_) {

@@ -78,6 +78,7 @@ class SequencedManager : public PathManager {
   TrajectoryPoint nothing_to_fly();
   void pass_time(Time since_last);
   void notice(const Route& route);
+  void end_wait();
   void note(const Route& route);
   void move_with(const StateEstimate& estimate);
   void find_place(const Route& route);

@@ -21,7 +21,7 @@ class PathPlanner : public Module {
   /// What the operator wants; not yet in force when one of the waypoints waits for an origin.
   virtual const SetRoute& wanted() const = 0;
 
-  /// The route in force, with every wish granted so far.
+  /// The route in force after every wish granted so far.
   virtual const Route& route() const = 0;
 
   void reset() override;

@@ -70,7 +70,7 @@ void WaypointPlanner::reset() {
   origin_ = LocalOrigin{};
   flight_ = FlightMemory{};
   route_.waypoints.clear();
-  route_.revision = route_.released = route_.holds = 0;
+  route_.revision = route_.released = route_.holds = route_.holds_released = 0;
   route_.hold_time.reset();
   route_.cyclic = false;
 }
@@ -138,6 +138,7 @@ bool WaypointPlanner::apply(const HoldHere& wish, const StateEstimate&) {
 
 bool WaypointPlanner::apply(const Release&, const StateEstimate&) {
   ++route_.released;
+  route_.holds_released = route_.holds;
   return true;
 }
 

@@ -185,6 +185,59 @@ TEST_P(SwapTest, FliesOnWhenReleasedBetweenTheSameTwoTicks) {
   EXPECT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.finished; }));
 }
 
+TEST_P(SwapTest, FliesOnFromAWaypointWhenReleasedBetweenTheSameTwoTicks) {
+  for (const bool swap_first : {false, true}) {
+    Waypoint hold = place(0, 2, -4, WaypointKind::kHold);
+    hold.hold_indefinitely = true;
+    ask(RouteRequest{SetRoute{{hold, place(0, 6, -4)}, false}});
+    if (!swap_first) take_off();
+    ASSERT_TRUE(
+        until(40.0, [](const Signals& s) { return s.trajectory.holding && s.trajectory.at_waypoint; }));
+    fly(1.0);
+    if (swap_first) swap();
+    ask(RouteRequest{Release{}});
+    if (!swap_first) swap();
+    EXPECT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.finished; })) << swap_first;
+  }
+}
+
+TEST_P(SwapTest, TakesTheLastWordOfAHoldAndARelease) {
+  ask(RouteRequest{SetRoute{{place(60, 0, -4)}, false}});
+  take_off();
+  ASSERT_TRUE(until(20.0, [](const Signals& s) { return s.trajectory.v_N.norm() > 1.0; }));
+  ask(RouteRequest{HoldHere{}});
+  ask(RouteRequest{Release{}});
+  swap();
+  EXPECT_FALSE(until(5.0, [](const Signals& s) { return s.trajectory.holding; }));
+  ask(RouteRequest{Release{}});
+  ask(RouteRequest{HoldHere{}});
+  swap();
+  EXPECT_TRUE(until(5.0, [](const Signals& s) { return s.trajectory.holding; }));
+  // A hold in force that is released and asked for anew goes on.
+  ask(RouteRequest{Release{}});
+  ask(RouteRequest{HoldHere{}});
+  fly(5.0);
+  EXPECT_TRUE(autopilot_.signals().trajectory.holding);
+  ask(RouteRequest{Release{}});
+  EXPECT_TRUE(until(60.0, [](const Signals& s) { return s.trajectory.finished; }));
+}
+
+TEST_P(SwapTest, TakesTheLastWordOfALandingAndItsEnd) {
+  ask(RouteRequest{SetRoute{{place(0, 0, -6)}, false}});
+  take_off();
+  fly(8.0);
+  ask(Land{});
+  fly(1.0);
+  ask(Resume{});
+  ask(Land{});
+  swap();
+  fly(0.1);
+  EXPECT_EQ(autopilot_.signals().flight.phase, FlightPhase::kLanding);
+  ask(Resume{});
+  fly(0.1);
+  EXPECT_EQ(autopilot_.signals().flight.phase, FlightPhase::kHold);
+}
+
 TEST_P(SwapTest, EditsTheRouteWhenAskedToBetweenTheSameTwoTicks) {
   ask(RouteRequest{SetRoute{{place(3, 0, -4), place(6, 0, -4), place(6, 6, -4)}, false}});
   take_off();
@@ -243,6 +296,42 @@ INSTANTIATE_TEST_SUITE_P(Slots, SwapTest,
                                            Swap{"Follower", "trajectory_follower", "flat_pid_follower"},
                                            Swap{"Controller", "controller", "cascaded_controller"}),
                          [](const auto& case_) { return case_.param.name; });
+
+/// A landing that is asked for in the middle of a leg.
+class LandingFromALeg : public AutopilotFlight {
+ public:
+  struct Way {
+    double highest = 0.0;         // m
+    double speed_after_1s = 0.0;  // m/s
+  };
+
+  Way land(bool with_swap) {
+    ask(RouteRequest{SetRoute{{place(0, 0, -4), place(60, 0, -4)}, false}});
+    take_off();
+    EXPECT_TRUE(until(40.0, [](const Signals& s) { return s.trajectory.v_N.norm() > 2.0; }));
+    ask(Land{});
+    if (with_swap) ask(SwapModule{"controller", "cascaded_controller", {}});
+    Way way;
+    until(1.0, [&](const Signals&) {
+      way.highest = std::max(way.highest, -vehicle_.p_NB_N.z());
+      return false;
+    });
+    way.speed_after_1s = vehicle_.v_NB_N.head<2>().norm();
+    return way;
+  }
+
+ private:
+  void TestBody() override {}
+};
+
+TEST(LandingFromALegTest, BrakesAsWellWhenTheControllerIsExchangedBetweenTheSameTwoTicks) {
+  LandingFromALeg plain;
+  LandingFromALeg exchanged;
+  const LandingFromALeg::Way without = plain.land(false);
+  const LandingFromALeg::Way with = exchanged.land(true);
+  EXPECT_NEAR(with.highest, without.highest, 0.1);
+  EXPECT_NEAR(with.speed_after_1s, without.speed_after_1s, 0.2);
+}
 
 struct ManagerSwap {
   const char* name;

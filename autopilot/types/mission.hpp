@@ -77,6 +77,7 @@ struct Route {
   std::uint32_t revision = 0;
   std::uint32_t released = 0;
   std::uint32_t holds = 0;
+  std::uint32_t holds_released = 0;
   std::optional<double> hold_time;
   bool cyclic = false;
   std::vector<Waypoint> waypoints;
@@ -86,6 +87,8 @@ struct Route {
     visit("revision", self.revision, "1", "raised by every change");
     visit("released", self.released, "1", "how often a hold was released by request");
     visit("holds", self.holds, "1", "how often a hold on the spot was requested");
+    visit("holds_released", self.holds_released, "1",
+          "how many of these had been when the last release came");
     visit("hold_time", self.hold_time, "s", "how long the last of these lasts; none: until released");
     visit("cyclic", self.cyclic, "1", "after the last waypoint comes the first");
     visit("waypoints", self.waypoints, "", "in order of flight");

@@ -20,8 +20,7 @@ std::uint64_t parse_seed(std::string_view number, const std::string& text) {
   if (read.ec == std::errc::result_out_of_range || (read.ec == std::errc() && seed > kGreatestSeed))
     throw ConfigError("--seed " + text + ": must be at most " + std::to_string(kGreatestSeed));
   if (read.ec != std::errc() || read.ptr != number.data() + number.size())
-    throw ConfigError("--seed " + (text.empty() ? "\"\"" : text) +
-                      ": must be a whole number >= 0, or first:last such as 1:20");
+    throw ConfigError("--seed " + text + ": must be a whole number >= 0, or first:last such as 1:20");
   return seed;
 }
 

@@ -4,6 +4,15 @@
 
 namespace ironbird::scenarios {
 
+namespace {
+
+/// No text that is asked for may be empty: mostly it is a variable of the shell that was never set.
+std::string refuse_empty(const std::string& text) {
+  return text.empty() ? "must not be empty" : "";
+}
+
+}  // namespace
+
 VerbOptions::Option& VerbOptions::Option::required() {
   option_->required();
   return *this;
@@ -35,17 +44,17 @@ VerbOptions::Option& VerbOptions::Option::one_word_each() {
 }
 
 VerbOptions::Option VerbOptions::option(const char* names, std::string& value, const std::string& help) {
-  return Option(app_.add_option(names, value, help));
+  return Option(app_.add_option(names, value, help)->check(refuse_empty));
 }
 
 VerbOptions::Option VerbOptions::option(const char* names, std::optional<std::string>& value,
                                         const std::string& help) {
-  return Option(app_.add_option(names, value, help));
+  return Option(app_.add_option(names, value, help)->check(refuse_empty));
 }
 
 VerbOptions::Option VerbOptions::option(const char* names, std::vector<std::string>& values,
                                         const std::string& help) {
-  return Option(app_.add_option(names, values, help));
+  return Option(app_.add_option(names, values, help)->check(refuse_empty));
 }
 
 VerbOptions::Option VerbOptions::option(const char* names, int& value, const std::string& help) {

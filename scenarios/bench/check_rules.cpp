@@ -60,7 +60,7 @@ class CheckRules {
 
   void check_list(const std::string& path, const std::optional<std::vector<std::string>>& events) {
     for (std::size_t i = 0; events && i < events->size(); ++i)
-      check_event(path + "[" + std::to_string(i) + "]", (*events)[i]);
+      check_listed(path + "[" + std::to_string(i) + "]", (*events)[i]);
   }
 
   /// Two checks that are told apart by nothing: the table, the JUnit file and the reasons go by the name.
@@ -92,6 +92,11 @@ class CheckRules {
     findings_.push_back(
         path + " = \"" + text +
         "\": lies beyond the end of the run, must be at most duration = " + with_unit(duration, "s"));
+  }
+
+  void check_listed(const std::string& path, const std::string& event) {
+    if (event.empty()) findings_.push_back(path + " = \"\": must name an event");
+    check_event(path, event);
   }
 
   void check_event(const std::string& path, const std::string& event) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <stdexcept>
 
 #include "autopilot/types/flight_status.hpp"
 #include "autopilot/types/state_estimate.hpp"
@@ -10,6 +11,7 @@
 #include "scenarios/bench/scenario_rules.hpp"
 #include "scenarios/config/nearest_name.hpp"
 #include "scenarios/requirements/timeline.hpp"
+#include "scenarios/requirements/window.hpp"
 
 namespace ironbird::scenarios {
 
@@ -37,6 +39,15 @@ bool somebody_arms(const Scenario& scenario) {
 
 bool asks_for(const Scenario& scenario, OperatorWish wish) {
   return any_event(scenario, [&](const EventConfig& event) { return event.request == wish; });
+}
+
+/// A check that waits for it waits for this and nothing else.
+bool is_whole_moment(const std::string& name) {
+  try {
+    return Moment::read(name, "name").event == name;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
 }
 
 }  // namespace
@@ -169,6 +180,8 @@ bool EventNames::known(const std::string& name, Waiting waiting) const {
 
 std::string EventNames::objection(const std::string& name) const {
   if (name.find(':') != std::string::npos) return "must be without ':', which stands behind a kind of event";
+  if (!is_whole_moment(name))
+    return "must neither begin with a number nor have a '+': times are written so in `after` and `until`";
   const auto is_name = [&](std::string_view one) { return one == name; };
   const auto end = names_.begin() + static_cast<std::ptrdiff_t>(of_the_run_);
   const bool taken =

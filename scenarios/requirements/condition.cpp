@@ -20,8 +20,9 @@ std::string trimmed(const std::string& text) {
 
 double named_value(const std::string& word, const Signal& signal) {
   const SignalLeaf& leaf = signal.leaf();
-  if (word == "true") return 1.0;
-  if (word == "false") return 0.0;
+  const bool is_truth = word == "true" || word == "false";
+  if (leaf.names.empty() && is_truth)
+    return word == "true" ? 1.0 : 0.0;  // of the wire, which knows only numbers
   if (leaf.names.empty()) return read_quantity(word, signal.unit(), signal.path());
   std::string known;
   for (std::size_t i = 0; i < leaf.names.size(); ++i) {
@@ -42,21 +43,23 @@ Condition Condition::read(const std::string& text, const SignalTable& table) {
                                                                           {">", Comparison::kAbove}}};
   Condition condition;
   condition.text_ = trimmed(text);
-  std::string left = condition.text_, right = "false";
-  condition.comparison_ = Comparison::kDifferent;
+  std::string left = condition.text_, right;
+  bool compares = false;
+  condition.comparison_ = Comparison::kDifferent;  // from 0, when there is nothing else to compare with
   for (const auto& [sign, comparison] : kOperators) {
     const std::size_t at = text.find(sign);
     if (at == std::string::npos) continue;
     left = trimmed(text.substr(0, at));
     right = trimmed(text.substr(at + std::string(sign).size()));
     condition.comparison_ = comparison;
+    compares = true;
     break;
   }
   condition.signal_ = table.find(left);
   if (condition.signal_.size() != 1) {
     throw std::invalid_argument(left + " is a vector, name a component");
   }
-  condition.value_ = named_value(right, condition.signal_);
+  if (compares) condition.value_ = named_value(right, condition.signal_);
   condition.refuse_impossible();
   const bool is_equality =
       condition.comparison_ == Comparison::kEqual || condition.comparison_ == Comparison::kDifferent;

@@ -35,8 +35,8 @@ struct SignalLeaf {
   const void* address = nullptr;
   double (*read)(const void*) = nullptr;
   std::vector<Guard> guards;
-  std::vector<std::string> names;    ///< of the values 0, 1, 2, … when the leaf is an enumeration
-  std::vector<double> numbers;       ///< the number that each name stands for
+  std::vector<std::string> names;  ///< of the values 0, 1, 2, … when the leaf is an enumeration or a truth
+  std::vector<double> numbers;     ///< the number that each name stands for
   Angles angles = Angles::kDegrees;  ///< what people count it in, when it is about an angle
 
   bool present() const {
@@ -177,6 +177,8 @@ struct SignalTable::Walk {
   void add(const std::string& at, const Value& member, const char* unit, const char* meaning) const {
     if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, char>) {
       return;
+    } else if constexpr (std::is_same_v<Value, bool>) {
+      leaf(at, live_address(member), &read_number<bool>, unit, meaning, {"false", "true"}, {0.0, 1.0});
     } else if constexpr (std::is_arithmetic_v<Value>) {
       leaf(at, live_address(member), &read_number<Value>, unit, meaning);
     } else if constexpr (std::is_enum_v<Value>) {

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -182,10 +183,12 @@ class Mp4Sink final : public VideoSink {
 }  // namespace
 
 void check_encoder(const std::string& program) {
-  const char* folders = std::getenv("PATH");
-  std::istringstream line(folders != nullptr ? folders : "");
+  const char* path = std::getenv("PATH");
+  const std::string_view folders = path != nullptr ? path : "/bin:/usr/bin";  // as posix_spawnp() has it
   int error = ENOENT;
-  for (std::string folder; std::getline(line, folder, ':');) {
+  for (std::size_t begin = 0, end = 0; end != folders.npos; begin = end + 1) {
+    end = folders.find(':', begin);
+    const std::string folder(folders.substr(begin, end - begin));
     const std::string file = (folder.empty() ? "." : folder) + "/" + program;
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) continue;

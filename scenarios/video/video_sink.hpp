@@ -35,8 +35,8 @@ class VideoSink {
   virtual void finish() = 0;
 };
 
-/// Finds out before the work whether make_mp4_sink() could start its program. @throws UserError that says
-/// what to install
+/// Finds out before the work whether make_mp4_sink() would find its program; whether it works is seen then.
+/// @throws UserError that says what to install
 void check_encoder(const std::string& program = "ffmpeg");
 
 /// Uncompressed YUV4MPEG2.

@@ -338,8 +338,10 @@ INSTANTIATE_TEST_SUITE_P(
                  kMission,
                  "--set seed=-1",
                  {"--set seed=-1: seed = -1: must be between 0 and 9223372036854775807"}},
-        BadInput{
-            "SeedOfAVariableThatIsEmpty", kMission, "--seed \"\"", {"--seed \"\": must be a whole number"}},
+        BadInput{"SeedOfAVariableThatIsEmpty",
+                 kMission,
+                 "--seed \"\"",
+                 {"--seed: must not be empty; see ironbird run --help"}},
         BadInput{"SeedsThatRunBackwards", kMission, "--seed 20:1", {"--seed 20:1: runs backwards"}},
         BadInput{"SeedsWithoutEnd",
                  kMission,

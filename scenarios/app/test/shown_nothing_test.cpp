@@ -122,6 +122,13 @@ TEST_F(ShownNothingTest, ACrashThatNoCheckExpectsLeavesNoPass) {
   expect(fly(falls + about_it("order_of_events = [\"crashed\"]")), 0, "flight: pass\n");
 }
 
+TEST_F(ShownNothingTest, TheKindOfACrashExpectsNone) {
+  const std::string falls =
+      "duration = \"12 s\"\n[[waypoint]]\np_N = [0, 0, -3]\n[[event]]\nat = \"8 s\"\nfault = "
+      "\"rotor_loss\"\nindex = 0\n[[check]]\nname = \"flies\"\norder_of_events = [\"ground\"]\n";
+  expect(fly(falls), 5, "flight: inconclusive: the vehicle crashed at ");
+}
+
 TEST_F(ShownNothingTest, SeveralRunsSayItToo) {
   const std::string other = folder_.write("other.toml", kUpright + kLate);
   const Said said = fly(kUpright, " " + other + " --jobs 2");

@@ -128,6 +128,8 @@ TEST(EventNamesTest, LetsNoOwnEventPassForOneOfTheRun) {
     EXPECT_THAT(names.objection(name), HasSubstr("the run itself has events of this name")) << name;
   }
   EXPECT_THAT(names.objection("phase:landing"), HasSubstr("must be without ':'"));
+  for (const char* name : {"5 s", "-1", "lifted_off + 1 s", "a + b", "+"})
+    EXPECT_THAT(names.objection(name), HasSubstr("must neither begin with a number")) << name;
   for (const char* name : {"gust", "take_off_again", "landing_2", "waypoint_of_honour"})
     EXPECT_EQ(names.objection(name), "") << name;
 }

@@ -353,6 +353,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "happens = \"autopilot.flight.phase == flying\": flying is not a value of"},
         Refusal{"ConditionAboveAll", "never_happens = 'autopilot.estimate.health > lost'",
                 "autopilot.estimate.health > lost can never be so; the order is uninitialised < good"},
+        Refusal{"ConditionAboveTrue", "never_happens = 'autopilot.estimate.position_known > true'",
+                "can never be so; the order is false < true"},
+        Refusal{"ConditionOfNoTruth", "never_happens = 'autopilot.estimate.position_known == 2'",
+                "2 is not a value of autopilot.estimate.position_known; there are false, true"},
+        Refusal{"TruthForAnEnumeration", "happens = 'autopilot.flight.phase == true'",
+                "true is not a value of"},
         Refusal{"ConditionBelowAll", "never_happens = 'autopilot.flight.phase < disarmed'", "never be so"},
         Refusal{"NoEvents", "order_of_events = []", "names no event"}),
     [](const auto& tested) { return tested.param.name; });
