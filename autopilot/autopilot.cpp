@@ -81,7 +81,7 @@ template <class Base>
 RequestOutcome exchange(std::unique_ptr<Base>& place, AutopilotConfig::Slot& slot, const SwapModule& wish,
                         const Registry<Base>& registry, const std::vector<ParameterSetting>& settings,
                         const std::vector<ParameterSetting>& asked_in_flight, ParameterTable& table,
-                        const Signals& signals, bool in_flight) {
+                        Handover left, bool in_flight) {
   std::unique_ptr<Base> newcomer = registry.make(wish.kind);
   if (newcomer == nullptr) return {false, unknown_kind(wish.slot, wish.kind, registry)};
   ParameterTable own;
@@ -96,9 +96,8 @@ RequestOutcome exchange(std::unique_ptr<Base>& place, AutopilotConfig::Slot& slo
       return {false, wish.slot + ": not in flight, " + std::string(why)};
     }
   }
-  if (const std::string reason = newcomer->objection(signals); !reason.empty()) return {false, reason};
+  if (const std::string reason = newcomer->objection(left); !reason.empty()) return {false, reason};
   settle(*newcomer, wish.slot, slot.period, table);
-  Handover left(signals);
   place->hand_over(left);
   newcomer->take_over(left);
   place = std::move(newcomer);
@@ -140,6 +139,7 @@ const FcuCommand& Autopilot::step(const SensorFrame& frame) {
   s.setpoint = trajectory_follower_->run(s.trajectory, s.estimate, s.flight);
   if (override_) s.setpoint = *override_;
   s.command = controller_->run(s.setpoint, s.trajectory.landing && !override_, s.estimate, s.flight.fcu);
+  new_setpoint_ = false;
   return s.command;
 }
 
@@ -192,6 +192,7 @@ RequestOutcome Autopilot::fly(const OverrideSetpoint& wish) {
     return {false, "the vehicle is descending or silent: ask to resume first"};
   }
   override_ = wish.setpoint;
+  new_setpoint_ = true;
   return {true, ""};
 }
 
@@ -205,6 +206,8 @@ void Autopilot::note_flight() {
 
 RequestOutcome Autopilot::swap(const SwapModule& wish) {
   note_flight();
+  Handover left(signals_);
+  left.new_setpoint = new_setpoint_;
   std::string names;
   std::optional<RequestOutcome> outcome;
   for_each_slot([&]<class Base>(const ModuleSlot<Base>& slot) {
@@ -213,8 +216,8 @@ RequestOutcome Autopilot::swap(const SwapModule& wish) {
     AutopilotConfig::Slot& config = config_.*slot.config;
     const bool same_kind = config.kind == wish.kind;
     outcome = exchange(std::get<std::unique_ptr<Base>&>(places()), config, wish, modules_.*slot.kinds,
-                       inheritance(wish, same_kind, parameters_, asked_), asked_in_flight_, parameters_,
-                       signals_, in_flight());
+                       inheritance(wish, same_kind, parameters_, asked_), asked_in_flight_, parameters_, left,
+                       in_flight());
   });
   return outcome.value_or(
       RequestOutcome{false, "slot \"" + wish.slot + "\" is unknown; there are: " + names});

@@ -92,6 +92,7 @@ class Autopilot {
   std::vector<ParameterSetting> asked_;            // by request, the newest value of each
   std::vector<ParameterSetting> asked_in_flight_;  // likewise: not what anything is configured to
   std::optional<ControlSetpoint> override_;
+  bool new_setpoint_ = false;  // `override_` was asked for since the last tick
   std::uint32_t route_revision_ = 0;
   Signals signals_;
 };

@@ -20,6 +20,8 @@ struct Handover : Signals {
   SetRoute wanted;                     ///< by the operator; in `route` when it waits for no origin
   std::uint32_t last_waypoint_id = 0;  ///< the greatest number ever given to a waypoint
   std::optional<FlightWish> wish;      ///< granted for the next work of the controller
+  std::optional<Time> armed_at;        ///< when the controller saw the vehicle arming
+  bool new_setpoint = false;           ///< the operator's came or went since the last tick
 };
 
 }  // namespace ironbird::autopilot

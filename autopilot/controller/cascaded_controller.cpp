@@ -41,13 +41,20 @@ void CascadedController::reset() {
   descent_.reset();
 }
 
+void CascadedController::hand_over(Handover& handover) const {
+  Controller::hand_over(handover);
+  handover.armed_at = armed_at_;
+}
+
 void CascadedController::take_over(const Handover& left) {
   Controller::take_over(left);
+  armed_at_ = left.armed_at;
   touch_down_.restore(memory().on_ground);
   upright_.restore(memory().given_up);
   rest_.restore(memory().may_lie);
-  // What is wished begins something new: going on as before would be to work against it.
-  if (!left.flight.fcu.overridden() && !left.wish) cascade_.resume(left.command, left.estimate);
+  // What was asked for just now begins something new: going on as before would be to work against it.
+  if (!left.flight.fcu.overridden() && !left.wish && !left.new_setpoint)
+    cascade_.resume(left.command, left.estimate);
   if (memory().has_point) return;
   notebook().has_point = true;
   notebook().point_N = left.estimate.p_NB_N;

@@ -111,6 +111,7 @@ class CascadedController final : public Tunable<Controller, CascadedControllerPa
   CascadedController() : cascade_(params()) {}
 
   void reset() override;
+  void hand_over(Handover& handover) const override;
   void take_over(const Handover& left) override;
   void probe(ProbeVisitor& visit) const override;
 

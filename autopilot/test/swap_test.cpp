@@ -297,42 +297,6 @@ INSTANTIATE_TEST_SUITE_P(Slots, SwapTest,
                                            Swap{"Controller", "controller", "cascaded_controller"}),
                          [](const auto& case_) { return case_.param.name; });
 
-/// A landing that is asked for in the middle of a leg.
-class LandingFromALeg : public AutopilotFlight {
- public:
-  struct Way {
-    double highest = 0.0;         // m
-    double speed_after_1s = 0.0;  // m/s
-  };
-
-  Way land(bool with_swap) {
-    ask(RouteRequest{SetRoute{{place(0, 0, -4), place(60, 0, -4)}, false}});
-    take_off();
-    EXPECT_TRUE(until(40.0, [](const Signals& s) { return s.trajectory.v_N.norm() > 2.0; }));
-    ask(Land{});
-    if (with_swap) ask(SwapModule{"controller", "cascaded_controller", {}});
-    Way way;
-    until(1.0, [&](const Signals&) {
-      way.highest = std::max(way.highest, -vehicle_.p_NB_N.z());
-      return false;
-    });
-    way.speed_after_1s = vehicle_.v_NB_N.head<2>().norm();
-    return way;
-  }
-
- private:
-  void TestBody() override {}
-};
-
-TEST(LandingFromALegTest, BrakesAsWellWhenTheControllerIsExchangedBetweenTheSameTwoTicks) {
-  LandingFromALeg plain;
-  LandingFromALeg exchanged;
-  const LandingFromALeg::Way without = plain.land(false);
-  const LandingFromALeg::Way with = exchanged.land(true);
-  EXPECT_NEAR(with.highest, without.highest, 0.1);
-  EXPECT_NEAR(with.speed_after_1s, without.speed_after_1s, 0.2);
-}
-
 struct ManagerSwap {
   const char* name;
   const char* from;

@@ -65,6 +65,39 @@ TEST_F(SuccessorTest, KeepsTheMotorsStillOnTheGroundAfterItsPredecessorsLanding)
   EXPECT_EQ(successor_.memory().launch_N, Vector3(3.0, 4.0, 0.0));
 }
 
+TEST_F(SuccessorTest, BeginsALandingThatItsPredecessorWasAskedForAsThatWould) {
+  // GIVEN a vehicle that is just braking a fast descent at full thrust
+  fly_offboard();
+  estimate_.p_NB_N.z() = -30.0;
+  estimate_.v_NB_B.z() = 3.0;
+  run();
+  ask(FlightWish::kLand);
+  Signals last = left_by(controller_, estimate_);
+  last.command = PassThroughCommand{Vector3::Zero(), 75.0};
+  Handover left(last);
+  controller_.hand_over(left);
+  successor_.take_over(left);
+  // WHEN both go on THEN the new one does not hold on to the thrust of the moment before
+  const double of_successor = std::get<PassThroughCommand>(step()).thrust;
+  const double of_predecessor = std::get<PassThroughCommand>(run()).thrust;
+  EXPECT_EQ(successor_.phase(), kLanding);
+  EXPECT_NEAR(of_successor, of_predecessor, 0.5);
+}
+
+TEST_F(SuccessorTest, TakesOffWhenItsPredecessorHasJustSeenTheArmingThatAsksForIt) {
+  arm_with_take_off();
+  estimate_.health = Health::kUninitialised;  // not yet, as the predecessor sees it
+  run();
+  ASSERT_EQ(controller_.phase(), kDisarmed);
+  successor_.set_params(controller_.params());
+  Handover left(left_by(controller_, estimate_));
+  controller_.hand_over(left);
+  successor_.take_over(left);
+  estimate_.health = Health::kGood;
+  step();
+  EXPECT_EQ(successor_.phase(), kTakeOff);
+}
+
 TEST_F(SuccessorTest, LeavesTheMotorsOfAVehicleStoppedThatWasOutOfControl) {
   fly_offboard();
   estimate_.q_NB = Quaternion(0.0, 1.0, 0.0, 0.0);
